@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Every outside library, found once. docs/dependencies.md says what each is for.
+find_package(MPI REQUIRED COMPONENTS C)
+
+set(HDF5_PREFER_PARALLEL ON)
+find_package(HDF5 REQUIRED COMPONENTS C)
+if(NOT HDF5_IS_PARALLEL)
+  message(FATAL_ERROR "Tenon needs the parallel HDF5 (Debian: libhdf5-openmpi-dev), found a serial one")
+endif()
+
+find_path(ZOLTAN_INCLUDE zoltan.h PATH_SUFFIXES trilinos REQUIRED)
+find_library(ZOLTAN_LIBRARY NAMES trilinos_zoltan zoltan REQUIRED)
+add_library(Zoltan::zoltan UNKNOWN IMPORTED)
+set_target_properties(Zoltan::zoltan PROPERTIES IMPORTED_LOCATION ${ZOLTAN_LIBRARY}
+  INTERFACE_INCLUDE_DIRECTORIES ${ZOLTAN_INCLUDE} INTERFACE_LINK_LIBRARIES MPI::MPI_C)
+
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(fmt REQUIRED)
+find_package(yaml-cpp REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(nlohmann_json REQUIRED)
+
+find_path(UDUNITS_INCLUDE udunits2.h REQUIRED)
+find_library(UDUNITS_LIBRARY udunits2 REQUIRED)
+add_library(Udunits::udunits UNKNOWN IMPORTED)
+set_target_properties(Udunits::udunits PROPERTIES IMPORTED_LOCATION ${UDUNITS_LIBRARY}
+  INTERFACE_INCLUDE_DIRECTORIES ${UDUNITS_INCLUDE})
+
+find_package(VTK 9.1 REQUIRED COMPONENTS CommonCore CommonDataModel CommonExecutionModel IOXML IOParallelXML IOExodus
+  IOImage FiltersCore FiltersGeometry FiltersParallel RenderingCore RenderingOpenGL2 RenderingAnnotation RenderingFreeType
+  RenderingContext2D RenderingContextOpenGL2 ChartsCore ViewsContext2D InteractionStyle)

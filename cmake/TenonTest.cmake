@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# tenon_test(NAME SOURCES ... ROOMS ... [LIBRARIES ...] [RANKS 1 2 3 ...] [LABELS ...] [TIMEOUT seconds])
+#
+# One GoogleTest program, registered once per rank count as NAME.npN. Ranks beyond the cores are
+# oversubscribed. The program's main initialises MPI and fails on every rank if one rank fails.
+function(tenon_test name)
+  cmake_parse_arguments(T "" "TIMEOUT" "SOURCES;ROOMS;LIBRARIES;RANKS;LABELS" ${ARGN})
+  if(NOT T_RANKS)
+    set(T_RANKS 1)
+  endif()
+  if(NOT T_TIMEOUT)
+    set(T_TIMEOUT 60)
+  endif()
+  list(TRANSFORM T_ROOMS PREPEND tenon_)
+  add_executable(${name} ${T_SOURCES})
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+  target_link_libraries(${name} PRIVATE ${T_ROOMS} tenon_test_support ${T_LIBRARIES})
+  foreach(ranks ${T_RANKS})
+    add_test(NAME ${name}.np${ranks}
+      COMMAND ${MPIEXEC_EXECUTABLE} --oversubscribe -n ${ranks} $<TARGET_FILE:${name}>
+      WORKING_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+    set_tests_properties(${name}.np${ranks} PROPERTIES PROCESSORS ${ranks} TIMEOUT ${T_TIMEOUT} LABELS "${T_LABELS}"
+      ENVIRONMENT "${TENON_TEST_ENVIRONMENT}")
+  endforeach()
+endfunction()
+set(TENON_TEST_ENVIRONMENT "OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;OMPI_MCA_rmaps_base_oversubscribe=1;OMPI_MCA_hwloc_base_binding_policy=none;OMPI_MCA_pml=ob1;OMPI_MCA_btl=self,vader;OMP_NUM_THREADS=1")

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Recursive coordinate bisection of points (Zoltan RCB), kept between calls so that small motion moves few points.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "framework/base/types.hpp"
+#include "framework/comm/communicator.hpp"
+#include "framework/base/box.hpp"
+
+namespace tenon {
+
+/// Cuts space into one box per rank with equal weight of points in each [BB87]. Cut directions are locked
+/// after the first cut and parts are not renumbered, so a repartition after small motion moves few points.
+class Rcb {
+ public:
+  explicit Rcb(const Communicator& comm);
+
+  /// Collective. Part (= rank) of each point. `coordinates` is n x 3, m; `weights` is empty or n, > 0. Ties on
+  /// a cut are decided by Zoltan: take the ownership from here, never from `rank_of`. Works with no points at all.
+  std::vector<int> partition(std::span<const Vec3> coordinates, std::span<const double> weights);
+
+  /// Ranks whose part overlaps the box, appended to `ranks` in ascending order. Local, after `partition`.
+  void ranks_overlapping(const Box& box, std::vector<int>& ranks) const;
+
+ private:
+  struct Impl;
+  std::shared_ptr<Impl> impl_;
+};
+
+}  // namespace tenon

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What each kind of element looks like: nodes, sides, names in the file formats.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+
+namespace tenon {
+
+enum class ElementKind : std::uint8_t { hex8, tet4, wedge6, pyramid5, quad4, tri3 };
+inline constexpr int element_kinds = 6;
+inline constexpr int max_element_nodes = 8;
+inline constexpr int max_sides = 6;
+inline constexpr int max_side_nodes = 4;
+
+/// Node order is that of VTK and Exodus; side order that of Exodus (0-based), with nodes ordered so that the
+/// right-hand normal points out. The sides of quad4 and tri3 are first the two faces (1: right-hand normal,
+/// 2: the reverse), then the edges, as in Exodus shells.
+struct Topology {
+  ElementKind kind;
+  std::string_view name;    ///< "hex8"
+  int dimension;            ///< of the element itself: 3 solid, 2 surface
+  int nodes;
+  int sides;
+  std::array<std::int8_t, max_sides> side_nodes;  ///< nodes of each side
+  std::array<std::array<std::int8_t, max_side_nodes>, max_sides> side;
+  int vtk_type;
+  int gmsh_type;
+  std::string_view exodus_names;  ///< spellings of the type in Exodus files, lower case, separated by spaces
+};
+
+const Topology& topology(ElementKind kind);
+/// The kind of that many-noded Exodus type ("HEX", 8); empty if there is none.
+std::optional<ElementKind> kind_of_exodus(std::string_view type, int nodes);
+std::optional<ElementKind> kind_of_gmsh(int type);
+std::optional<ElementKind> kind_of_vtk(int type);
+
+}  // namespace tenon

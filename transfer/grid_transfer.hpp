@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Fields from one distributed mesh to another by the rendezvous algorithm (Plimpton, Hendrickson, Stewart 2004).
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "framework/comm/exchange_plan.hpp"
+#include "framework/fields/field.hpp"
+#include "framework/mesh/mesh.hpp"
+
+namespace tenon::transfer {
+
+enum class Method { automatic, interpolate, conserve };
+
+/// What a target point outside the source mesh receives.
+enum class OutsidePolicy {
+  nearest,      ///< the value at the nearest point of the source
+  extrapolate,  ///< the nearest element's shape functions evaluated outside it (linear-exact)
+  value,        ///< a given value
+  error         ///< refuse: Error(geometry) naming count, greatest distance and place
+};
+
+struct TransferOptions {
+  Method method = Method::automatic;  ///< automatic: point values are interpolated, densities and totals conserved
+  OutsidePolicy outside = OutsidePolicy::nearest;
+  double outside_value = 0;
+  /// A point farther from the source than this is refused under every policy but `value` (m; infinity: never).
+  double greatest_distance = std::numeric_limits<double>::infinity();
+  /// Points nearer than this fraction of an element's size count as inside.
+  double tolerance = 1e-9;
+};
+
+/// One side: a mesh, where it stands now, and where the field lives. `coordinates` are of all local nodes and must
+/// stay valid while the map is built.
+struct Grid {
+  const Mesh* mesh = nullptr;
+  std::span<const Vec3> coordinates;
+  Location location = Location::node;  ///< node or element (a value per element, at its centre)
+};
+
+/// What a map or an application of it did, the same on every rank.
+struct TransferReport {
+  GlobalId targets = 0;           ///< target points in all (quadrature points of the source for `conserve`)
+  GlobalId outside = 0;           ///< of them outside the source (target mesh for `conserve`)
+  double greatest_distance = 0;   ///< of those, m
+  Vec3 farthest{};                ///< where
+  double source_integral = 0;     ///< of the first component: sum of a total, integral of others
+  double target_integral = 0;
+  double mismatch = 0;            ///< |target - source| / scale of the integral of |f|
+  double error_estimate = 0;      ///< estimated greatest interpolation error, unit of the field (point values; else 0)
+};
+
+/// A map between two meshes with decompositions of their own, over the same communicator. Point values: each target
+/// point takes the shape functions of the source element that contains it (the smallest global id on shared faces).
+/// Totals: each source element's amount is spread by quadrature points over the shape functions of the target element
+/// that contains each (the transpose of interpolation): sums are kept to round-off; a node's total goes by the point at
+/// the node. Densities: as totals of density x volume, divided by the target's nodal volume. Bitwise the same on any ranks.
+class GridTransfer {
+ public:
+  /// Collective. Builds the map. Throws Error(usage) for a pairing that makes no sense (say, `interpolate` of a total),
+  /// Error(geometry) under OutsidePolicy::error.
+  GridTransfer(const Grid& source, const Grid& target, const FieldDescription& field, const TransferOptions& options,
+               std::string name);
+  ~GridTransfer();
+
+  /// Collective. `source`: all local items of the source x components; `target`: all local items of the target, every one
+  /// set (ghosts included). No allocation after the first call with that many components.
+  void apply(std::span<const double> source, std::span<double> target, int components) const;
+
+  /// Collective. Misses of the map, and integrals and error estimate of these values.
+  TransferReport report(std::span<const double> source, std::span<const double> target, int components) const;
+  /// Local: bytes of the map; how often it was built and applied.
+  std::int64_t memory() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace tenon::transfer
