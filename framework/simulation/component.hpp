@@ -18,7 +18,8 @@
 namespace tenon {
 
 /// A field that a component shows or gives away: fills an array of all local items (owned and ghost; elements of all
-/// blocks one after the other) x components. Reading a `total` that accumulates takes it: the next read starts from zero.
+/// blocks one after the other) x components. Reading a `total` that accumulates takes it: the next read starts from
+/// zero.
 struct ExportPort {
   FieldDescription field;
   std::function<void(std::span<double>)> read;
@@ -30,19 +31,19 @@ struct ImportPort {
   std::function<void(std::span<const double>)> write;
 };
 
-/// One row of the energy ledger, J. Stored rows plus the initial total equal the supplied rows to round-off; memo rows are
-/// shown but not added ("of which").
+/// One row of the energy ledger, J. Stored rows plus the initial total equal the supplied rows to round-off; memo rows
+/// are shown but not added ("of which").
 struct EnergyTerm {
   enum class Role { stored, supplied, memo };
   std::string row;  ///< "kinetic_energy", "internal_energy", "hourglass_energy", "viscosity_energy", "wall_energy", ...
   Role role = Role::stored;
-  ExactSum local;   ///< this rank's share; owned items only
+  ExactSum local;  ///< this rank's share; owned items only
 };
 
 /// What limits the time step, for the log and `plan`.
 struct StepLimiter {
-  double dt = 0;        ///< s
-  std::string reason;   ///< "element 12 of block bar at (x, y, z)", "time_step.fixed"
+  double dt = 0;       ///< s
+  std::string reason;  ///< "element 12 of block bar at (x, y, z)", "time_step.fixed"
 };
 
 /// An extremum or point value for history.csv.
@@ -71,6 +72,8 @@ class Component {
   virtual std::string_view type() const = 0;
   virtual const Mesh& mesh() const = 0;
   double time() const { return time_; }
+  /// Local. Sets the clock: by the simulation at the start of a run and on restart only.
+  void set_clock(double time) { time_ = time; }
 
   /// Prepares the state at the start time, or after `load`. Called once, before the first step.
   virtual void initialize() = 0;

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where the energy of a run is, row by row, and how exactly the rows close.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "framework/simulation/component.hpp"
+
+namespace tenon {
+
+/// One row of the ledger at one time, J.
+struct LedgerRow {
+  std::string component, row;
+  EnergyTerm::Role role;
+  double value;
+};
+
+/// The ledger of all components at one time. For every component: sum(stored) - initial = sum(supplied) + residual.
+struct LedgerSnapshot {
+  std::vector<LedgerRow> rows;
+  std::vector<double> residual;  ///< per component, J
+  double error = 0;              ///< greatest |residual| / scale over the components, 1
+};
+
+/// Sums the rows of all components with one exact reduction. The scale of a component is the greatest sum of |rows| so
+/// far.
+class EnergyLedger {
+ public:
+  EnergyLedger(const Communicator& comm, std::vector<Component*> components)
+      : comm_(comm), components_(std::move(components)) {}
+
+  /// Collective. Takes the present stored totals as the initial ones.
+  void start();
+  /// Collective.
+  LedgerSnapshot take();
+
+  /// Row names in a fixed order; the component's name stands before a row that several components have.
+  std::vector<std::string> columns();
+
+  /// Collective.
+  void save(CheckpointWriter& file) const;
+  void load(const CheckpointReader& file);
+
+ private:
+  struct Account {
+    double initial = 0, scale = 0;
+  };
+  std::vector<LedgerRow> reduce();
+  Communicator comm_;
+  std::vector<Component*> components_;
+  std::vector<Account> accounts_;
+};
+
+}  // namespace tenon

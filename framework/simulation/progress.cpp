@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "framework/simulation/progress.hpp"
+
+namespace tenon {
+
+void Progress::start(Simulation& simulation, bool) {
+  clock_ = IntervalClock(every_, simulation.start_time());
+  clock_.reset(simulation.time(), simulation.steps());
+  began_ = std::chrono::steady_clock::now();
+  first_time_ = simulation.time();
+  header(simulation);
+}
+
+void Progress::after_step(Simulation& simulation, bool last) {
+  if (clock_.due(simulation.time(), simulation.steps()) || last) line(simulation);
+}
+
+void Progress::header(Simulation& simulation) {
+  std::string rows;
+  for (const std::string& column : simulation.ledger().columns()) {
+    std::string name = column;
+    if (const auto tail = name.rfind("_energy"); tail != std::string::npos) name.resize(tail);
+    rows += fmt::format(" {:>11.11}", name);
+  }
+  simulation.log().print("{:>8} {:>11} {:>10}{} {:>8} {:>7}  energies in J; what limits the step", "step", "time s",
+                         "dt s", rows, "error", "to go");
+}
+
+void Progress::line(Simulation& simulation) {
+  const LedgerSnapshot ledger = simulation.ledger().take();
+  std::string rows;
+  for (const LedgerRow& row : ledger.rows) rows += fmt::format(" {:>11.4e}", row.value);
+  const StepLimiter limiter = simulation.leader().limiter();
+  const double left = seconds_left(simulation);
+  simulation.log().print("{:>8} {:>11.5e} {:>10.4e}{} {:>8.1e} {:>6.0f}s  {}: {}", simulation.steps(),
+                         simulation.time(), simulation.dt(), rows, ledger.error, left, simulation.leader().name(),
+                         limiter.reason);
+}
+
+double Progress::seconds_left(const Simulation& simulation) const {
+  const double done = simulation.time() - first_time_;
+  const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
+  return done > 0 ? spent * (simulation.end_time() - simulation.time()) / done : 0.0;
+}
+
+}  // namespace tenon

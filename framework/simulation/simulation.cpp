@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "framework/simulation/simulation.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace tenon {
+
+Simulation::Simulation(const Communicator& comm, Log& log, double start_time, double end_time)
+    : comm_(comm), log_(log), start_time_(start_time), end_time_(end_time), time_(start_time) {}
+
+Component& Simulation::add(std::unique_ptr<Component> component) {
+  component->use_timers(timers_);
+  return *components_.emplace_back(std::move(component));
+}
+
+Coupling& Simulation::add(std::unique_ptr<Coupling> coupling) {
+  return *couplings_.emplace_back(std::move(coupling));
+}
+
+Observer& Simulation::add(std::unique_ptr<Observer> observer) {
+  return *observers_.emplace_back(std::move(observer));
+}
+
+Component* Simulation::find(std::string_view name) const {
+  const auto found =
+      std::find_if(components_.begin(), components_.end(), [&](const auto& c) { return c->name() == name; });
+  return found == components_.end() ? nullptr : found->get();
+}
+
+void Simulation::initialize(const CheckpointReader* checkpoint) {
+  std::vector<Component*> all;
+  for (const auto& component : components_) all.push_back(component.get());
+  ledger_ = std::make_unique<EnergyLedger>(comm_, all);
+  {
+    const ScopedTimer timer(timers_.phase("set-up"));
+    for (const auto& component : components_) component->set_clock(start_time_);
+    if (checkpoint) load(*checkpoint);
+    for (const auto& component : components_) component->initialize();
+    for (const auto& coupling : couplings_) {
+      coupling->use_timer(timers_.phase("transfer: " + coupling->name()));
+      coupling->initialize();
+    }
+    if (!checkpoint) {
+      ledger_->start();
+      for (const auto& coupling : couplings_)
+        if (coupling->runs_at_start()) coupling->run();
+    }
+  }
+  for (const auto& observer : observers_) observer->start(*this, checkpoint != nullptr);
+}
+
+void Simulation::run() {
+  try {
+    while (!done() && !stopped_) step();
+  } catch (const Error&) {
+    for (const auto& observer : observers_) observer->after_failure(*this);
+    throw;
+  }
+}
+
+void Simulation::step() {
+  choose_leader();
+  dt_ = leader_step();
+  leader_->advance(dt_);
+  time_ = leader_->time();
+  ++steps_;
+  run_couplings(leader_, nullptr, CouplingSchedule::source_step);
+  follow();
+  stopped_ = stop_ && stop_->asked(comm_, steps_);
+  for (const auto& observer : observers_) observer->after_step(*this, done() || stopped_);
+}
+
+// The leader changes only when all clocks agree: a component that lags must not be asked to lead.
+void Simulation::choose_leader() {
+  const bool level =
+      std::all_of(components_.begin(), components_.end(), [&](const auto& c) { return c->time() == time_; });
+  if (leader_ && (!level || components_.size() == 1)) return;
+  double smallest = std::numeric_limits<double>::infinity();
+  leader_ = components_.front().get();
+  for (const auto& component : components_) {
+    const double dt = component->time_step();
+    if (dt < smallest) {
+      smallest = dt;
+      leader_ = component.get();
+    }
+  }
+}
+
+double Simulation::leader_step() {
+  double dt = leader_->time_step();
+  for (const auto& component : components_)
+    if (component.get() != leader_) dt = std::min(dt, component->time_step() - (time_ - component->time()));
+  const double left = end_time_ - time_;
+  // A sliver of a step at the very end would only add round-off.
+  return dt >= left * (1 - 1e-9) ? left : dt;
+}
+
+bool Simulation::due(Component& follower) {
+  const double lag = time_ - follower.time();
+  return lag > 0 && (done() || lag + dt_ > follower.time_step() * (1 - 1e-12));
+}
+
+void Simulation::follow() {
+  for (const auto& component : components_) {
+    if (component.get() == leader_ || !due(*component)) continue;
+    run_couplings(leader_, component.get(), CouplingSchedule::slower_step);
+    for (const auto& other : components_)
+      if (other.get() != leader_ && other != component)
+        run_couplings(other.get(), component.get(), CouplingSchedule::slower_step);
+    component->advance(time_ - component->time());
+    component->set_clock(time_);  // the same bits as the leader's, whatever t + (T - t) rounds to
+    run_couplings(component.get(), nullptr, CouplingSchedule::source_step);
+    run_couplings(component.get(), leader_, CouplingSchedule::slower_step);
+  }
+}
+
+void Simulation::run_couplings(const Component* source, const Component* target, CouplingSchedule schedule) {
+  for (const auto& coupling : couplings_) {
+    if (&coupling->source() != source || coupling->schedule() != schedule) continue;
+    if (target && &coupling->target() != target) continue;
+    coupling->run();
+  }
+}
+
+void Simulation::save(CheckpointWriter& file) {
+  file.scalar("time", time_);
+  file.scalar("dt", dt_);
+  file.integer("step", steps_);
+  file.text("leader", leader_ ? leader_->name() : "");
+  ledger_->save(file);
+  for (const auto& component : components_) {
+    file.scalar(component->name() + ".time", component->time());
+    component->save(file);
+  }
+  for (const auto& coupling : couplings_) coupling->save(file);
+}
+
+void Simulation::load(const CheckpointReader& file) {
+  time_ = file.scalar("time");
+  dt_ = file.scalar("dt");
+  steps_ = file.integer("step");
+  leader_ = find(file.text("leader"));
+  ledger_->load(file);
+  for (const auto& component : components_) {
+    component->set_clock(file.scalar(component->name() + ".time"));
+    component->load(file);
+  }
+  for (const auto& coupling : couplings_) coupling->load(file);
+}
+
+}  // namespace tenon
