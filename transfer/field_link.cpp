@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "transfer/field_link.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tenon::transfer {
+
+namespace {
+
+template <typename Port>
+Port take_port(std::vector<Port> ports, const std::string& field, const std::string& transfer,
+               const Component& component, const char* verb) {
+  std::string known;
+  for (Port& port : ports) {
+    if (port.field.name == field) return std::move(port);
+    known += (known.empty() ? "" : ", ") + port.field.name;
+  }
+  throw Error(ExitCode::usage, fmt::format("transfer '{}': component '{}' {} no field '{}'; it {}: {}", transfer,
+                                           component.name(), verb, field, verb, known.empty() ? "nothing" : known));
+}
+
+void check_pair(const std::string& name, const FieldDescription& from, const FieldDescription& to) {
+  const auto refuse = [&](const std::string& why) {
+    throw Error(ExitCode::usage,
+                fmt::format("transfer '{}': '{}' does not fit '{}': {}", name, from.name, to.name, why));
+  };
+  if (from.components != to.components) refuse(fmt::format("{} components against {}", from.components, to.components));
+  if (from.unit != to.unit) refuse(fmt::format("unit {} against {}", from.unit, to.unit));
+  if (from.kind != to.kind) refuse(fmt::format("a {} against a {}", to_string(from.kind), to_string(to.kind)));
+}
+
+std::size_t items_at(const Mesh& mesh, Location location) {
+  return static_cast<std::size_t>(location == Location::node ? mesh.nodes() : mesh.elements());
+}
+
+void accumulate(const std::vector<LocalIndex>& items, std::size_t width, const std::vector<double>& values,
+                std::vector<double>& sums) {
+  for (std::size_t i = 0; i < items.size(); ++i)
+    for (std::size_t c = 0; c < width; ++c)
+      sums[i * width + c] += values[static_cast<std::size_t>(items[i]) * width + c];
+}
+
+ExactSum exact(const std::vector<double>& values, std::size_t width, std::size_t component) {
+  ExactSum sum;
+  for (std::size_t i = component; i < values.size(); i += width) sum.add(values[i]);
+  return sum;
+}
+
+std::string suffix(std::size_t width, std::size_t component) {
+  return width == 1 ? "" : std::string("_") + "xyzuvw"[component % 6];
+}
+
+bool same(std::span<const Vec3> a, const std::vector<Vec3>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end());
+}
+
+}  // namespace
+
+OwnedItems owned_items(const Mesh& mesh, Location location) {
+  OwnedItems owned;
+  if (location == Location::node) {
+    owned.items = mesh.owned_nodes;
+    owned.global_count = mesh.global_nodes;
+    for (const LocalIndex n : owned.items) owned.ids.push_back(mesh.node_ids[static_cast<std::size_t>(n)]);
+    return owned;
+  }
+  owned.global_count = mesh.global_elements;
+  LocalIndex item = 0;
+  for (const ElementBlock& block : mesh.blocks)
+    for (std::size_t e = 0; e < block.ids.size(); ++e, ++item)
+      if (block.owners[e] == mesh.comm.rank()) {
+        owned.items.push_back(item);
+        owned.ids.push_back(block.ids[e]);
+      }
+  return owned;
+}
+
+FieldLink::FieldLink(std::string name, Component& source, Component& target, FieldLinkOptions options)
+    : Coupling(std::move(name), source, target, options.schedule),
+      options_(std::move(options)),
+      export_(take_port(source.exports(), options_.source_field, this->name(), source, "gives")),
+      import_(take_port(target.imports(), options_.target_field, this->name(), target, "takes")) {
+  check_pair(this->name(), export_.field, import_.field);
+  const auto width = static_cast<std::size_t>(export_.field.components);
+  source_values_.resize(items_at(source.mesh(), export_.field.location) * width);
+  target_values_.resize(items_at(target.mesh(), import_.field.location) * width);
+  source_owned_ = owned_items(source.mesh(), export_.field.location).items;
+  target_owned_ = owned_items(target.mesh(), import_.field.location).items;
+  if (total()) {
+    sent_.assign(source_owned_.size() * width, 0.0);
+    received_.assign(target_owned_.size() * width, 0.0);
+  }
+}
+
+void FieldLink::initialize() {
+  build();
+}
+
+void FieldLink::build() {
+  const bool current = options_.configuration == Configuration::current;
+  const auto place = [current](const Component& c) {
+    return current ? c.current_coordinates() : std::span<const Vec3>(c.mesh().coordinates);
+  };
+  const Grid from{&source().mesh(), place(source()), export_.field.location};
+  const Grid to{&target().mesh(), place(target()), import_.field.location};
+  map_ = std::make_unique<GridTransfer>(from, to, export_.field, options_.transfer, name());
+  ++builds_;
+  if (!current) return;
+  source_built_.assign(from.coordinates.begin(), from.coordinates.end());
+  target_built_.assign(to.coordinates.begin(), to.coordinates.end());
+}
+
+bool FieldLink::moved() const {
+  return source().mesh().comm.any(!same(source().current_coordinates(), source_built_) ||
+                                  !same(target().current_coordinates(), target_built_));
+}
+
+void FieldLink::run() {
+  const ScopedTimer scope(timer());
+  if (options_.configuration == Configuration::current) {
+    if (moved())
+      build();
+    else
+      ++rebuilds_skipped_;
+  }
+  export_.read(source_values_);
+  map_->apply(source_values_, target_values_, export_.field.components);
+  import_.write(target_values_);
+  if (!total()) return;
+  const auto width = static_cast<std::size_t>(export_.field.components);
+  accumulate(source_owned_, width, source_values_, sent_);
+  accumulate(target_owned_, width, target_values_, received_);
+}
+
+std::vector<std::string> FieldLink::report() {
+  const TransferReport r = map_->report(source_values_, target_values_, export_.field.components);
+  std::vector<std::string> lines;
+  lines.push_back(fmt::format("{}.{} -> {}.{}: map built {} times, {} rebuilds skipped, applied {} times",
+                              source().name(), export_.field.name, target().name(), import_.field.name, builds_,
+                              rebuilds_skipped_, runs()));
+  lines.push_back(fmt::format("{} points sought, {} outside (greatest distance {:.3g} m at ({:.4g}, {:.4g}, {:.4g}))",
+                              r.targets, r.outside, r.greatest_distance, r.farthest[0], r.farthest[1], r.farthest[2]));
+  const std::string& unit = export_.field.unit;
+  if (total()) {
+    const double sent = source().mesh().comm.sum(exact(sent_)), arrived = source().mesh().comm.sum(exact(received_));
+    const double scale = std::max(std::abs(sent), std::abs(arrived));
+    lines.push_back(fmt::format("sent {:.10g} {}, arrived {:.10g} {}, relative mismatch {:.1e}", sent, unit, arrived,
+                                unit, scale > 0 ? std::abs(sent - arrived) / scale : 0.0));
+  } else {
+    lines.push_back(
+        fmt::format("last values: integral {:.6g} at the source, {:.6g} at the target (mismatch {:.1e}), "
+                    "estimated greatest error {:.3g} {}",
+                    r.source_integral, r.target_integral, r.mismatch, r.error_estimate, unit));
+  }
+  return lines;
+}
+
+std::vector<std::pair<std::string, ExactSum>> FieldLink::amounts() {
+  std::vector<std::pair<std::string, ExactSum>> all;
+  if (!total()) return all;
+  const auto width = static_cast<std::size_t>(export_.field.components);
+  for (std::size_t c = 0; c < width; ++c) {
+    all.emplace_back("transfer." + name() + ".sent" + suffix(width, c), exact(sent_, width, c));
+    all.emplace_back("transfer." + name() + ".arrived" + suffix(width, c), exact(received_, width, c));
+  }
+  return all;
+}
+
+void FieldLink::save(CheckpointWriter& file) {
+  if (!total()) return;
+  const OwnedItems from = owned_items(source().mesh(), export_.field.location);
+  const OwnedItems to = owned_items(target().mesh(), import_.field.location);
+  file.array("transfer." + name() + ".sent", GlobalOrder(source().mesh().comm, from.ids, from.global_count), sent_,
+             export_.field.components);
+  file.array("transfer." + name() + ".arrived", GlobalOrder(target().mesh().comm, to.ids, to.global_count), received_,
+             1);
+}
+
+void FieldLink::load(const CheckpointReader& file) {
+  if (!total()) return;
+  const OwnedItems from = owned_items(source().mesh(), export_.field.location);
+  const OwnedItems to = owned_items(target().mesh(), import_.field.location);
+  file.array("transfer." + name() + ".sent", GlobalOrder(source().mesh().comm, from.ids, from.global_count), sent_,
+             export_.field.components);
+  file.array("transfer." + name() + ".arrived", GlobalOrder(target().mesh().comm, to.ids, to.global_count), received_,
+             1);
+}
+
+std::int64_t FieldLink::memory() const {
+  return (map_ ? map_->memory() : 0) +
+         static_cast<std::int64_t>(sizeof(double) *
+                                   (source_values_.size() + target_values_.size() + sent_.size() + received_.size()));
+}
+
+}  // namespace tenon::transfer

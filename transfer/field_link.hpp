@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A coupling that carries one field of one component to another through a GridTransfer.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "framework/simulation/coupling.hpp"
+#include "transfer/grid_transfer.hpp"
+
+namespace tenon::transfer {
+
+/// Where both meshes stand when points are sought. Material bodies that move together share reference coordinates, so a
+/// map built there stays right for ever; `current` finds points where the meshes are now and rebuilds when one has
+/// moved.
+enum class Configuration { reference, current };
+
+struct FieldLinkOptions {
+  std::string source_field, target_field;
+  TransferOptions transfer;
+  Configuration configuration = Configuration::reference;
+  CouplingSchedule schedule = CouplingSchedule::slower_step;
+};
+
+/// Totals are accumulated on both sides, so that history.csv shows what was sent and what arrived.
+class FieldLink : public Coupling {
+ public:
+  /// Throws Error(usage) if a field is missing (with the nearest name), or units, components or kinds do not fit.
+  FieldLink(std::string name, Component& source, Component& target, FieldLinkOptions options);
+
+  void initialize() override;
+  void run() override;
+  bool runs_at_start() const override { return !total(); }
+  std::vector<std::string> report() override;
+  std::vector<std::pair<std::string, ExactSum>> amounts() override;
+  void save(CheckpointWriter& file) override;
+  void load(const CheckpointReader& file) override;
+  std::int64_t memory() const override;
+
+ private:
+  bool total() const { return export_.field.kind == FieldKind::total; }
+  void build();
+  bool moved() const;
+
+  FieldLinkOptions options_;
+  ExportPort export_;
+  ImportPort import_;
+  std::unique_ptr<GridTransfer> map_;
+  std::int64_t builds_ = 0, rebuilds_skipped_ = 0;
+  std::vector<double> source_values_, target_values_;
+  std::vector<double> sent_, received_;  // running totals of the owned items, J or the like
+  std::vector<LocalIndex> source_owned_, target_owned_;
+  std::vector<Vec3> source_built_, target_built_;  // coordinates that the map was built for
+};
+
+/// Positions (in an array of local items) of the items that this rank owns, and their global ids.
+struct OwnedItems {
+  std::vector<LocalIndex> items;
+  std::vector<GlobalId> ids;
+  GlobalId global_count = 0;
+};
+OwnedItems owned_items(const Mesh& mesh, Location location);
+
+}  // namespace tenon::transfer
