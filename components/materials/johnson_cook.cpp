@@ -47,9 +47,18 @@ struct Solution {
   double mean_stress;  ///< Pa, mean over the plastic strain of the step
 };
 
+/// A point between the bounds when Newton leaves them: downwards from the upper bound at first, then the geometric
+/// mean, which reaches the smallest numbers (n near 0) in a few halvings of the exponent.
+double within(double low, double high, int iteration) {
+  constexpr int downward = 8;
+  constexpr double least = 1e-290;
+  if (low == 0 && iteration < downward) return high / 64;
+  return std::sqrt(std::max(low, least * high)) * std::sqrt(high);
+}
+
 /// Root of g(d) = q - 3 G d - flow_stress(d), which falls steadily from g(0) > 0 to g(q / 3G) <= 0. g is convex but for
-/// the kink of the rate term, so Newton converges from the left without overshoot; the bracket serves the rest. Where
-/// the slope is infinite (virgin material, n < 1) the start is sought downwards from the upper bound.
+/// the kink of the rate term, so Newton converges from the left without overshoot; the bracket serves the rest, such as
+/// the infinite slope of virgin material with n < 1.
 Solution solve(const Point& point, double q, double three_g, double guess, double start_hardening) {
   constexpr int newton_budget = 40, budget = 120;
   double low = 0, high = q / three_g;
@@ -60,17 +69,14 @@ Solution solve(const Point& point, double q, double three_g, double guess, doubl
     const double g = q - three_g * d - value;
     (g > 0 ? low : high) = d;
     const double step = g / (three_g + f.slope);
-    // The step is linear in what is left: its error is of second order, 1e-15 here.
-    if (std::abs(step) <= 3e-8 * d && i < newton_budget) {
-      d += step;
+    if (std::abs(step) <= 3e-8 * d && std::isfinite(f.slope)) {
+      d += step;  // the error of this last step is of second order: 1e-15
       value += f.slope * step;
       break;
     }
     if (!(high - low > 4e-16 * high)) break;
-    double next = d + step;
-    if (!(next > low && next < high) || i >= newton_budget)
-      next = low > 0 ? std::sqrt(low) * std::sqrt(high) : high / 64;
-    d = next;
+    const double newton = d + step;
+    d = newton > low && newton < high && i < newton_budget ? newton : within(low, high, i);
     f = point.at(d);
     value = f.value();
   }
