@@ -112,7 +112,8 @@ class Communicator {
   std::vector<ExchangeCount> counts() const;
 
   struct Impl;
-  const Impl& impl() const { return *impl_; }
+  /// For the sources of this room.
+  Impl& impl() const { return *impl_; }
 
  private:
   explicit Communicator(std::shared_ptr<Impl> impl) : impl_(std::move(impl)) {}

@@ -27,6 +27,7 @@ class Directory {
 
  private:
   Communicator comm_;
+  GlobalId share_ = 1;         // ids per home: id i is at home on rank i / share_
   std::vector<GlobalId> ids_;  // ascending
   std::vector<DirectoryEntry> entries_;
 };

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstring>
 #include <memory>
 #include <span>
 #include <string>
@@ -38,14 +39,15 @@ class ExchangePlan {
                                std::span<const LocalIndex> send, std::string name);
 
   /// Collective. The pull form, for ghosts and for gathers: this rank wants, in place `into[i]` of its own
-  /// array, item `index[i]` of rank `owner[i]`. `index` counts in the owner's array.
+  /// array, item `index[i]` of rank `owner[i]`. `index` counts in the owner's array. Where `owner[i]` is -1, nothing
+  /// is asked for and the place is left alone.
   static ExchangePlan from_owners(const Communicator& comm, std::span<const int> owner,
                                   std::span<const LocalIndex> index, std::span<const LocalIndex> into,
                                   std::string name);
 
   /// Items that arrive on this rank (from all ranks, itself included).
   LocalIndex received() const;
-  /// Source rank of each arriving item.
+  /// Source rank of each arriving item, in order of arrival.
   std::vector<int> received_from() const;
   /// Ranks that this one sends to or receives from, without itself.
   int neighbours() const;
@@ -72,8 +74,22 @@ class ExchangePlan {
   void forward(std::span<const ExchangeItem> arrays) const;
   void reverse(std::span<const ExchangeItem> arrays) const;
 
+  /// Collective. `forward` in two halves, for work between them: the first posts the messages, the second waits for
+  /// them and stores what arrived. Between the two, `from` may be read and the places that nothing arrives in may be
+  /// written (the values have left already), and no other run of this plan may begin.
+  template <typename T>
+  void begin_forward(std::span<const T> from, std::span<T> to, int components = 1) const {
+    static_assert(std::is_trivially_copyable_v<T>);
+    const ExchangeItem item{reinterpret_cast<const std::byte*>(from.data()), reinterpret_cast<std::byte*>(to.data()),
+                            sizeof(T) * static_cast<std::size_t>(components)};
+    begin_forward(std::span(&item, 1));
+  }
+  void begin_forward(std::span<const ExchangeItem> arrays) const;
+  void end_forward() const;
+
   /// Collective, set-up only: items of varying length. `counts[i]` values belong to item i of this rank and
-  /// stand one after the other in `values`; returns the same of the arriving items.
+  /// stand one after the other in `values`; returns the same of the arriving items, in order of arrival: by source
+  /// rank, then by order of sending (in the pull form: of asking).
   template <typename T>
   struct Varying {
     std::vector<LocalIndex> counts;
@@ -85,7 +101,7 @@ class ExchangePlan {
     Varying<T> result;
     const std::vector<std::byte> bytes = forward_varying_bytes(counts, std::as_bytes(values), sizeof(T), result.counts);
     result.values.resize(bytes.size() / sizeof(T));
-    std::copy(bytes.begin(), bytes.end(), reinterpret_cast<std::byte*>(result.values.data()));
+    if (!bytes.empty()) std::memcpy(result.values.data(), bytes.data(), bytes.size());
     return result;
   }
 
