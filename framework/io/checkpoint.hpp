@@ -24,8 +24,13 @@ class GlobalOrder {
  private:
   friend class CheckpointWriter;
   friend class CheckpointReader;
+  /// Collective. Rows of this rank's slab from values in the order of the ids, and back.
+  void to_slab(std::span<const double> values, std::span<double> slab, int components) const;
+  void from_slab(std::span<const double> slab, std::span<double> values, int components) const;
+
   GlobalId global_count_ = 0, slab_first_ = 0;
-  LocalIndex slab_size_ = 0;
+  LocalIndex slab_size_ = 0, given_ = 0;
+  bool each_once_ = false;            // every id was given by exactly one rank: fit for writing
   std::vector<LocalIndex> slab_row_;  // of each arriving id
   ExchangePlan plan_;
 };
@@ -49,8 +54,8 @@ class CheckpointWriter {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Reads a checkpoint on any number of ranks. Collective; throws Error(file) naming the file and dataset when it is not a
-/// checkpoint, is truncated or corrupted (a checksum per dataset is compared), or lacks what is asked.
+/// Reads a checkpoint on any number of ranks. Collective; throws Error(file) naming the file and dataset when it is not
+/// a checkpoint, is truncated or corrupted (a checksum per dataset is compared), or lacks what is asked.
 class CheckpointReader {
  public:
   CheckpointReader(const Communicator& comm, std::string path);
@@ -73,6 +78,13 @@ struct CheckpointFiles {
   static std::vector<std::string> list(const std::string& folder);
   /// Removes all but the newest two. Call on rank 0.
   static void prune(const std::string& folder);
+  /// Removes those of later steps, which a run that restarts from `step` abandons (and which `prune` would else
+  /// prefer). Call on rank 0.
+  static void remove_later_than(const std::string& folder, std::int64_t step);
+  /// Collective. The newest that is whole and undamaged; empty if there is none. The messages about newer, damaged ones
+  /// are appended to `damaged`.
+  static std::string newest_valid(const Communicator& comm, const std::string& folder,
+                                  std::vector<std::string>* damaged = nullptr);
 };
 
 }  // namespace tenon

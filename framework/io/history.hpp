@@ -18,8 +18,10 @@ class History {
   /// agree. Column names must not repeat. Throws Error(file).
   History(const Communicator& comm, std::string path, std::vector<std::string> columns, std::int64_t resume_step);
   ~History();
-  /// Values in the order of the columns, written with 17 digits (integers without a point); only rank 0's count.
+  /// Local. Values in the order of the columns, written with 17 digits (integers without a point); only rank 0's count.
+  /// Reaches the system at once, so that a kill loses none; a failure shows at the next `flush`.
   void row(std::span<const double> values);
+  /// Collective. Throws Error(file) on all ranks if a row since the last flush could not be written.
   void flush();
 
  private:

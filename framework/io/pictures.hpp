@@ -8,15 +8,15 @@
 namespace tenon {
 
 struct PictureOptions {
-  std::string component;        ///< empty: all components, side by side
+  std::string component;            ///< empty: all components, side by side
   std::vector<std::string> fields;  ///< empty: the most telling ones that exist (eqps, von_mises, temperature, ...)
   int width = 1600, height = 900;
   bool every_frame = true;
 };
 
-/// Draws `FOLDER/pictures/COMPONENT_FIELD_NNNN.png` per frame, `FOLDER/pictures/last.png` (all components and their main
-/// field in the last frame, with colour bars in the field's unit) and `FOLDER/pictures/history.png` (energies, ledger error
-/// and extrema of history.csv). Serial. Colour range of a field is that of all frames. Returns the paths.
+/// Draws `FOLDER/pictures/COMPONENT_FIELD_NNNN.png` per frame, `FOLDER/pictures/last.png` (all components and their
+/// main field in the last frame, with colour bars in the field's unit) and `FOLDER/pictures/history.png` (energies,
+/// ledger error and extrema of history.csv). Serial. Colour range of a field is that of all frames. Returns the paths.
 /// Needs an X display; where there is none, call `needs_display` first. Throws Error(file).
 std::vector<std::string> draw_pictures(const std::string& folder, const PictureOptions& options);
 

@@ -32,7 +32,8 @@ struct OutputPart {
 /// cell field `rank` and, where there are several blocks, `block`. Each file is written aside and renamed, .pvd last.
 class VtkOutput {
  public:
-  /// Collective. `resume_time`: on restart, frames of an earlier run up to and including this time are kept (NaN: none).
+  /// Collective. `resume_time`: on restart, frames of an earlier run up to and including this time are kept (NaN:
+  /// none).
   VtkOutput(const Communicator& comm, std::string folder, double resume_time);
   ~VtkOutput();
   /// Collective. Throws Error(file) on all ranks if a file cannot be written.
