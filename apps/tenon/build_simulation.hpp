@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From a checked scene to components and couplings.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "apps/tenon/load_scene.hpp"
+#include "framework/simulation/frame_output.hpp"
+#include "framework/simulation/history_output.hpp"
+#include "framework/simulation/simulation.hpp"
+
+namespace tenon {
+
+/// How often what is written.
+struct OutputPlan {
+  Interval frames, history, checkpoint, log;
+  std::vector<std::string> frame_fields;
+  std::vector<PointHistory> points;
+};
+
+struct BuiltScene {
+  std::unique_ptr<Simulation> simulation;
+  OutputPlan output;
+  std::vector<std::string> warnings;
+};
+
+/// Collective. Reads the meshes, checks every name of the scene against them, distributes, makes components and
+/// couplings; nothing is initialized and nothing written. Throws Error(usage) with all complaints, Error(file),
+/// Error(geometry); together on all ranks.
+BuiltScene build_simulation(const Communicator& comm, Log& log, const LoadedScene& scene);
+
+}  // namespace tenon

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From a scene file to a checked description, the same on every rank.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "framework/comm/communicator.hpp"
+#include "framework/scene/schema.hpp"
+
+namespace tenon {
+
+struct LoadedScene {
+  std::string path, folder;  ///< file and the folder it is in
+  std::string title;
+  scene::Value value;
+};
+
+/// Collective. Rank 0 reads the file, all ranks parse the same text. Throws Error(file) if it cannot be read and
+/// Error(usage) with every complaint of the schema.
+LoadedScene load_scene(const Communicator& comm, const std::string& path,
+                       const std::vector<scene::Override>& overrides);
+
+/// "a.b=c" as it stands on the command line. Throws Error(usage).
+std::vector<scene::Override> parse_overrides(const std::vector<std::string>& texts);
+
+}  // namespace tenon

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <chrono>
+#include <filesystem>
+
+#include "apps/tenon/build_simulation.hpp"
+#include "apps/tenon/commands.hpp"
+#include "framework/simulation/checkpoint_output.hpp"
+#include "framework/simulation/progress.hpp"
+#include "framework/simulation/run_report.hpp"
+
+namespace tenon {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string results_folder(const RunArguments& arguments) {
+  if (!arguments.folder.empty()) return arguments.folder;
+  return fs::path(arguments.scene).stem().string() + ".results";
+}
+
+/// The checkpoint to continue from; empty for a fresh start.
+std::string find_checkpoint(const Communicator& comm, Log& log, const RunArguments& arguments,
+                            const std::string& folder) {
+  if (arguments.restart.empty()) return "";
+  if (arguments.restart != "latest") return arguments.restart;
+  const std::string newest = CheckpointFiles::newest_valid(comm, folder);
+  if (newest.empty()) log.print("no checkpoint in {} yet: starting at the beginning", folder);
+  return newest;
+}
+
+// Checkpoints of an earlier run in the same folder would be taken for ours by a later `--restart latest`.
+void prepare_folder(const Communicator& comm, const std::string& folder, bool restart) {
+  comm.vote_on_root([&] {
+    std::error_code problem;
+    fs::create_directories(folder, problem);
+    if (problem)
+      throw Error(ExitCode::file, folder + ": cannot be made: " + problem.message() + "; choose another with -o");
+    if (restart) return;
+    for (const std::string& old : CheckpointFiles::list(folder)) fs::remove(old);
+    fs::remove(folder + "/final.h5");
+    fs::remove(folder + "/summary.json");
+  });
+}
+
+void add_observers(Simulation& simulation, const OutputPlan& plan, const std::string& folder, HistoryOutput*& history) {
+  simulation.add(std::make_unique<FrameOutput>(FrameOptions{folder, plan.frames, plan.frame_fields}));
+  history = static_cast<HistoryOutput*>(&simulation.add(
+      std::make_unique<HistoryOutput>(HistoryOptions{folder + "/history.csv", plan.history, plan.points})));
+  simulation.add(std::make_unique<CheckpointOutput>(CheckpointOptions{folder, plan.checkpoint}));
+  simulation.add(std::make_unique<Progress>(plan.log));
+}
+
+void print_transfers(Simulation& simulation) {
+  if (!simulation.couplings().empty()) simulation.log().line("");
+  for (const auto& coupling : simulation.couplings()) {
+    simulation.log().print("transfer {}:", coupling->name());
+    for (const std::string& line : coupling->report()) simulation.log().print("  {}", line);
+  }
+}
+
+void print_results(Log& log, const std::string& folder, bool stopped) {
+  log.print("\nresults in {0}: all.pvd (ParaView), history.csv, summary.json, {1}", folder,
+            stopped ? "checkpoint" : "final.h5");
+  if (stopped)
+    log.print("stopped on request; continue with: tenon run SCENE -o {} --restart latest", folder);
+  else
+    log.print("pictures: tenon picture {}", folder);
+}
+
+}  // namespace
+
+ExitCode run_scene(const Communicator& comm, const RunArguments& arguments) {
+  const auto began = std::chrono::steady_clock::now();
+  Log log(comm.rank() == 0);
+  const LoadedScene scene = load_scene(comm, arguments.scene, parse_overrides(arguments.settings));
+  log.print("{}\n{} on {} ranks", version_text(), scene.title, comm.size());
+  BuiltScene built = build_simulation(comm, log, scene);
+  Simulation& simulation = *built.simulation;
+
+  const std::string folder = results_folder(arguments);
+  const std::string checkpoint = find_checkpoint(comm, log, arguments, folder);
+  std::unique_ptr<CheckpointReader> reader;
+  if (!checkpoint.empty()) reader = std::make_unique<CheckpointReader>(comm, checkpoint);
+  prepare_folder(comm, folder, reader != nullptr);
+  comm.vote([&] { log.open(folder + "/log.txt", reader != nullptr); });
+  for (const std::string& warning : built.warnings) log.warning(warning);
+  if (reader) log.print("continuing from {}", checkpoint);
+
+  StopRequest stop;
+  simulation.watch(stop);
+  HistoryOutput* history = nullptr;
+  add_observers(simulation, built.output, folder, history);
+  simulation.initialize(reader.get());
+  reader.reset();
+  simulation.run();
+
+  print_transfers(simulation);
+  const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  RunFacts facts{scene.title,
+                 scene.path,
+                 version_text(),
+                 wall,
+                 history->greatest_energy_error(),
+                 simulation.stopped() ? "stopped on request" : "done"};
+  report_run(simulation, facts, folder + "/summary.json");
+  print_results(log, folder, simulation.stopped());
+  return simulation.stopped() ? ExitCode::stopped : ExitCode::done;
+}
+
+void check_scene(const Communicator& comm, const RunArguments& arguments) {
+  Log log(comm.rank() == 0);
+  const LoadedScene scene = load_scene(comm, arguments.scene, parse_overrides(arguments.settings));
+  BuiltScene built = build_simulation(comm, log, scene);
+  built.simulation->initialize();
+  for (const std::string& warning : built.warnings) log.warning(warning);
+  log.print("{}: valid", arguments.scene);
+}
+
+}  // namespace tenon
