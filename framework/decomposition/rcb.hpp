@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
+#include "framework/base/box.hpp"
 #include "framework/base/types.hpp"
 #include "framework/comm/communicator.hpp"
-#include "framework/base/box.hpp"
 
 namespace tenon {
 

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "framework/decomposition/rcb.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "framework/decomposition/zoltan_partitioner.hpp"
+
+namespace tenon {
+
+struct Rcb::Impl {
+  explicit Impl(const Communicator& comm_in)
+      : comm(comm_in), found_ranks(static_cast<std::size_t>(comm.size())), found_parts(found_ranks.size()) {
+    if (comm.size() == 1) return;
+    zoltan = std::make_unique<ZoltanPartitioner>(comm);
+    zoltan->set("LB_METHOD", "RCB");
+    zoltan->set("KEEP_CUTS", "1");
+    zoltan->set("RCB_LOCK_DIRECTIONS", "1");  // otherwise cuts turn, and half of all points move
+    zoltan->set("AVERAGE_CUTS", "1");         // cuts between points: fewer boxes of a regular mesh touch them
+    zoltan->set("CHECK_GEOM", "0");
+    zoltan->set("NUM_GLOBAL_PARTS", std::to_string(comm.size()));
+  }
+
+  Communicator comm;
+  std::unique_ptr<ZoltanPartitioner> zoltan;  // none on one rank
+  bool has_cuts = false;
+  std::vector<int> found_ranks, found_parts;
+};
+
+Rcb::Rcb(const Communicator& comm) : impl_(std::make_shared<Impl>(comm)) {}
+
+std::vector<int> Rcb::partition(std::span<const Vec3> coordinates, std::span<const double> weights) {
+  std::vector<int> part(coordinates.size(), 0);
+  if (!impl_->zoltan) return part;
+  // Bisection would not end with a coordinate that is not finite; such points stay on rank 0.
+  std::vector<std::size_t> kept;
+  kept.reserve(coordinates.size());
+  for (std::size_t i = 0; i < coordinates.size(); ++i)
+    if (std::isfinite(coordinates[i][0]) && std::isfinite(coordinates[i][1]) && std::isfinite(coordinates[i][2]))
+      kept.push_back(i);
+  impl_->has_cuts = impl_->comm.any(!kept.empty());
+  if (!impl_->has_cuts) return part;
+  PartitionItems items{.coordinates = coordinates, .weights = weights};
+  std::vector<Vec3> kept_coordinates;
+  std::vector<double> kept_weights;
+  if (kept.size() < coordinates.size()) {
+    for (const std::size_t i : kept) kept_coordinates.push_back(coordinates[i]);
+    if (!weights.empty())
+      for (const std::size_t i : kept) kept_weights.push_back(weights[i]);
+    items.coordinates = kept_coordinates;
+    items.weights = kept_weights;
+  }
+  const std::vector<int> kept_part = impl_->zoltan->partition(items);
+  for (std::size_t k = 0; k < kept.size(); ++k) part[kept[k]] = kept_part[k];
+  return part;
+}
+
+void Rcb::ranks_overlapping(const Box& box, std::vector<int>& ranks) const {
+  if (box.empty()) return;
+  if (!impl_->has_cuts) {
+    ranks.push_back(0);
+    return;
+  }
+  int rank_count = 0, part_count = 0;
+  const int status = Zoltan_LB_Box_PP_Assign(impl_->zoltan->get(), box.low[0], box.low[1], box.low[2], box.high[0],
+                                             box.high[1], box.high[2], impl_->found_ranks.data(), &rank_count,
+                                             impl_->found_parts.data(), &part_count);
+  if (status != ZOLTAN_OK) throw Error(ExitCode::usage, "Zoltan fails to find the parts that a box overlaps");
+  const auto first = impl_->found_parts.begin();
+  std::sort(first, first + part_count);
+  ranks.insert(ranks.end(), first, first + part_count);
+}
+
+}  // namespace tenon
