@@ -44,37 +44,63 @@ struct Grid {
 
 /// What a map or an application of it did, the same on every rank.
 struct TransferReport {
-  GlobalId targets = 0;           ///< target points in all (quadrature points of the source for `conserve`)
-  GlobalId outside = 0;           ///< of them outside the source (target mesh for `conserve`)
-  double greatest_distance = 0;   ///< of those, m
-  Vec3 farthest{};                ///< where
-  double source_integral = 0;     ///< of the first component: sum of a total, integral of others
+  GlobalId targets = 0;          ///< target points in all (quadrature points of the source for `conserve`)
+  GlobalId outside = 0;          ///< of them outside the source (target mesh for `conserve`)
+  double greatest_distance = 0;  ///< of those, m
+  Vec3 farthest{};               ///< where
+  double source_integral = 0;    ///< of the first component: sum of a total, integral of others
   double target_integral = 0;
-  double mismatch = 0;            ///< |target - source| / scale of the integral of |f|
-  double error_estimate = 0;      ///< estimated greatest interpolation error, unit of the field (point values; else 0)
+  double mismatch = 0;        ///< |target - source| / scale of the integral of |f|
+  double error_estimate = 0;  ///< estimated greatest interpolation error, unit of the field (point values; else 0)
+  GlobalId skipped = 0;       ///< elements without volume, in which no point was sought
+};
+
+/// One field of several that share a map and travel in one message per neighbour.
+struct TransferItem {
+  std::span<const double> source;
+  std::span<double> target;
+  int components = 1;
 };
 
 /// A map between two meshes with decompositions of their own, over the same communicator. Point values: each target
 /// point takes the shape functions of the source element that contains it (the smallest global id on shared faces).
 /// Totals: each source element's amount is spread by quadrature points over the shape functions of the target element
 /// that contains each (the transpose of interpolation): sums are kept to round-off; a node's total goes by the point at
-/// the node. Densities: as totals of density x volume, divided by the target's nodal volume. Bitwise the same on any ranks.
+/// the node. Densities: as totals of density x volume, divided by the target's nodal volume (nodal densities are
+/// fields, so they are spread from the elements around the node). Volumes are those of the coordinates that the map was
+/// built for. Element values are constant over their element. Bitwise the same on any ranks.
+///
+/// Pairings: point values are interpolated; totals are conserved; densities are conserved, or interpolated if asked for
+/// by name (their integral is then only approximated). Everything else is refused: to interpolate a total, to conserve
+/// a point value, to transfer a flux, and OutsidePolicy::value where amounts would vanish.
 class GridTransfer {
  public:
-  /// Collective. Builds the map. Throws Error(usage) for a pairing that makes no sense (say, `interpolate` of a total),
-  /// Error(geometry) under OutsidePolicy::error.
+  /// Collective. Builds the map. The meshes must outlive it. Throws Error(usage) for a pairing that makes no sense
+  /// (say, `interpolate` of a total), Error(geometry) under OutsidePolicy::error, for an inverted element of the mesh
+  /// that points are sought in, and for coordinates that are not finite.
   GridTransfer(const Grid& source, const Grid& target, const FieldDescription& field, const TransferOptions& options,
                std::string name);
   ~GridTransfer();
 
-  /// Collective. `source`: all local items of the source x components; `target`: all local items of the target, every one
-  /// set (ghosts included). No allocation after the first call with that many components.
+  /// Collective. `source`: all local items of the source x components; `target`: all local items of the target, every
+  /// one set (ghosts included). No allocation after the first call with that many components.
   void apply(std::span<const double> source, std::span<double> target, int components) const;
+
+  /// Collective. Several fields at once, each as above: one message per neighbour for all of them.
+  void apply(std::span<const TransferItem> fields) const;
+
+  /// Collective. Rebuilds the map where the meshes stand now, unless no coordinate has changed on any rank. Returns
+  /// whether it was rebuilt.
+  bool update(std::span<const Vec3> source_coordinates, std::span<const Vec3> target_coordinates);
 
   /// Collective. Misses of the map, and integrals and error estimate of these values.
   TransferReport report(std::span<const double> source, std::span<const double> target, int components) const;
   /// Local: bytes of the map; how often it was built and applied.
   std::int64_t memory() const;
+  std::int64_t built() const;
+  std::int64_t applied() const;
+  /// Whether the map interpolates or conserves; never automatic.
+  Method method() const;
 
  private:
   struct Impl;

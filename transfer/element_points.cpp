@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "transfer/element_points.hpp"
+
+namespace tenon::transfer {
+
+namespace {
+
+TabulatedPoint tabulated(ElementKind kind, const Vec3& xi, double weight) {
+  TabulatedPoint point;
+  point.xi = xi;
+  point.weight = weight;
+  const auto nodes = static_cast<std::size_t>(topology(kind).nodes);
+  shape_values(kind, xi, std::span(point.value).first(nodes));
+  shape_gradients(kind, xi, std::span(point.gradient).first(nodes));
+  return point;
+}
+
+/// Visits all (i, j, k) of a lattice of n^3 cells.
+template <typename Visit>
+void lattice(int n, Visit&& visit) {
+  for (int k = 0; k < n; ++k)
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i) visit(i, j, k);
+}
+
+/// A tetrahedron cut by planes parallel to its faces: upright tetrahedra, octahedra (four times their volume) and
+/// inverted tetrahedra, each by its centroid.
+void subdivide_tet(int n, std::vector<TabulatedPoint>& points) {
+  const double cell = 1.0 / (6.0 * n * n * n);
+  const auto at = [&](int i, int j, int k, double shift, double weight) {
+    points.push_back(tabulated(ElementKind::tet4, {(i + shift) / n, (j + shift) / n, (k + shift) / n}, weight));
+  };
+  lattice(n, [&](int i, int j, int k) {
+    const int level = i + j + k;
+    if (level <= n - 1) at(i, j, k, 0.25, cell);
+    if (level <= n - 2) at(i, j, k, 0.5, 4 * cell);
+    if (level <= n - 3) at(i, j, k, 0.75, cell);
+  });
+}
+
+void subdivide_wedge(int n, std::vector<TabulatedPoint>& points) {
+  const double cell = 1.0 / (n * n) * (1.0 / n);
+  const auto at = [&](int i, int j, int k, double shift) {
+    points.push_back(tabulated(ElementKind::wedge6, {(i + shift) / n, (j + shift) / n, -1 + (2 * k + 1.0) / n}, cell));
+  };
+  lattice(n, [&](int i, int j, int k) {
+    if (i + j <= n - 1) at(i, j, k, 1.0 / 3.0);
+    if (i + j <= n - 2) at(i, j, k, 2.0 / 3.0);
+  });
+}
+
+/// Layers of equal height; the section at zeta is the square |xi|, |eta| <= 1 - zeta.
+void subdivide_pyramid(int n, std::vector<TabulatedPoint>& points) {
+  lattice(n, [&](int i, int j, int k) {
+    const double zeta = (k + 0.5) / n, width = 1 - zeta;
+    const Vec3 xi{width * (-1 + (2 * i + 1.0) / n), width * (-1 + (2 * j + 1.0) / n), zeta};
+    points.push_back(tabulated(ElementKind::pyramid5, xi, 4 * width * width / (n * n) * (1.0 / n)));
+  });
+}
+
+}  // namespace
+
+std::vector<TabulatedPoint> quadrature_points(ElementKind kind) {
+  std::vector<TabulatedPoint> points;
+  for (const QuadraturePoint& q : quadrature(kind)) points.push_back(tabulated(kind, q.xi, q.weight));
+  return points;
+}
+
+std::vector<TabulatedPoint> subdivision_points(ElementKind kind, int n) {
+  std::vector<TabulatedPoint> points;
+  const auto mid = [n](int i) { return -1 + (2 * i + 1.0) / n; };
+  const double cell = 1.0 / n * (1.0 / n) * (1.0 / n);
+  switch (kind) {
+    case ElementKind::tet4:
+      subdivide_tet(n, points);
+      break;
+    case ElementKind::wedge6:
+      subdivide_wedge(n, points);
+      break;
+    case ElementKind::pyramid5:
+      subdivide_pyramid(n, points);
+      break;
+    default:
+      lattice(n, [&](int i, int j, int k) { points.push_back(tabulated(kind, {mid(i), mid(j), mid(k)}, 8 * cell)); });
+  }
+  return points;
+}
+
+double determinant(const TabulatedPoint& point, int nodes, const Corners& corners) {
+  Vec3 x_xi{}, x_eta{}, x_zeta{};
+  for (int n = 0; n < nodes; ++n) {
+    const auto a = static_cast<std::size_t>(n);
+    x_xi = x_xi + point.gradient[a][0] * corners[a];
+    x_eta = x_eta + point.gradient[a][1] * corners[a];
+    x_zeta = x_zeta + point.gradient[a][2] * corners[a];
+  }
+  return dot(cross(x_xi, x_eta), x_zeta);
+}
+
+Vec3 position(const TabulatedPoint& point, int nodes, const Corners& corners) {
+  Vec3 x{};
+  for (int n = 0; n < nodes; ++n) {
+    const auto a = static_cast<std::size_t>(n);
+    x = x + point.value[a] * corners[a];
+  }
+  return x;
+}
+
+std::vector<double> item_volumes(const Mesh& mesh, std::span<const Vec3> coordinates, Location location) {
+  std::vector<double> volumes(static_cast<std::size_t>(item_count(mesh, location)), 0.0);
+  std::size_t item = 0;
+  for (const ElementBlock& block : mesh.blocks) {
+    const std::vector<TabulatedPoint> points = quadrature_points(block.kind);
+    const int nodes = topology(block.kind).nodes;
+    for (LocalIndex e = 0; e < block.size(); ++e, ++item) {
+      const Corners corners = corners_of(block, e, coordinates);
+      const auto connectivity = block.nodes(e);
+      std::array<double, max_nodes> share{};
+      double volume = 0;
+      for (const TabulatedPoint& point : points) {
+        const double w = point.weight * determinant(point, nodes, corners);
+        volume += w;
+        for (std::size_t a = 0; a < connectivity.size(); ++a) share[a] += w * point.value[a];
+      }
+      if (location == Location::element) {
+        volumes[item] = volume;
+      } else {
+        for (std::size_t a = 0; a < connectivity.size(); ++a)
+          volumes[static_cast<std::size_t>(connectivity[a])] += share[a];
+      }
+    }
+  }
+  // Around a ghost node some elements may be missing here: its owner knows.
+  if (location == Location::node && mesh.comm.size() > 1)
+    mesh.node_halo.forward(std::span<const double>(volumes), std::span<double>(volumes));
+  return volumes;
+}
+
+}  // namespace tenon::transfer

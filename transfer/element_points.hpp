@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Points inside reference elements with their shape functions tabulated, and what is integrated with them.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "framework/fields/field.hpp"
+#include "framework/mesh/mesh.hpp"
+#include "framework/mesh/shape_functions.hpp"
+#include "transfer/mesh_items.hpp"
+
+namespace tenon::transfer {
+
+struct TabulatedPoint {
+  Vec3 xi{};
+  double weight = 0;  ///< volume of the reference element that the point stands for
+  std::array<double, max_nodes> value{};
+  std::array<Vec3, max_nodes> gradient{};  ///< with respect to xi
+};
+
+/// The quadrature rule of an element kind.
+std::vector<TabulatedPoint> quadrature_points(ElementKind kind);
+/// Midpoints of about n^3 equal sub-cells of the reference element (solids).
+std::vector<TabulatedPoint> subdivision_points(ElementKind kind, int n);
+
+/// det(dx/dxi), m^3.
+double determinant(const TabulatedPoint& point, int nodes, const Corners& corners);
+/// x, m.
+Vec3 position(const TabulatedPoint& point, int nodes, const Corners& corners);
+
+/// Collective. Volume of every local item, m^3: of an element, or the integral of a node's shape function over all
+/// elements around it (the consistent mass matrix summed by rows).
+std::vector<double> item_volumes(const Mesh& mesh, std::span<const Vec3> coordinates, Location location);
+
+}  // namespace tenon::transfer

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "transfer/spreading.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "transfer/element_points.hpp"
+
+namespace tenon::transfer {
+
+namespace {
+
+constexpr int fewest = 2, most = 6;  // sub-cells along an edge
+
+/// Collective. Edge of a cube as large as the mean element, m.
+double typical_size(const Side& side) {
+  ExactSum volume;
+  for_each_element(side.mesh, [&](LocalIndex, const ElementBlock& block, LocalIndex e) {
+    if (block.owners[static_cast<std::size_t>(e)] != side.mesh.comm.rank()) return;
+    const Corners corners = corners_of(block, e, side.coordinates);
+    volume.add(element_measure(block.kind, std::span(corners).first(block.nodes(e).size())));
+  });
+  const double total = side.mesh.comm.sum(volume);
+  return side.mesh.global_elements > 0 ? std::cbrt(total / static_cast<double>(side.mesh.global_elements)) : 0.0;
+}
+
+class Spreader {
+ public:
+  Spreader(const Side& source, double target_size, bool density)
+      : source_(source), target_size_(target_size), density_(density) {}
+
+  void nodes() {
+    for (const LocalIndex n : source_.items.owned) {
+      const auto i = static_cast<std::size_t>(n);
+      open_group(source_.items.ids[i], {&source_.coordinates[i], 1});
+      share(source_.items, i, 1.0, [](std::size_t) { return 1.0; });
+      close_group();
+    }
+  }
+
+  void element(const ElementBlock& block, LocalIndex e, LocalIndex item) {
+    const Corners corners = corners_of(block, e, source_.coordinates);
+    const auto connectivity = block.nodes(e);
+    const int nodes = static_cast<int>(connectivity.size());
+    const double volume = element_measure(block.kind, std::span(corners).first(connectivity.size()));
+    const std::vector<TabulatedPoint>& table = points_for(block.kind, volume);
+    places_.clear(), volumes_.clear();
+    double sum = 0;
+    for (const TabulatedPoint& point : table) {
+      places_.push_back(position(point, nodes, corners));
+      volumes_.push_back(point.weight * std::max(determinant(point, nodes, corners), 0.0));
+      sum += volumes_.back();
+    }
+    const bool by_node = source_.location == Location::node;
+    if (!(sum > 0)) {
+      // No volume: a total sits at the centre, a density means nothing.
+      if (density_) return;
+      places_.assign(1, centre_of(block.kind, corners)), volumes_.assign(1, 1.0);
+    }
+    open_group(block.ids[static_cast<std::size_t>(e)], places_);
+    if (!by_node) {
+      share(source_.items, static_cast<std::size_t>(item), density_ ? std::max(volume, 0.0) : 1.0,
+            [&](std::size_t q) { return volumes_[q]; });
+    } else {
+      const std::array<double, max_nodes> part = node_volumes(block.kind, corners);
+      for (std::size_t a = 0; a < connectivity.size(); ++a)
+        share(source_.nodes, static_cast<std::size_t>(connectivity[a]), part[a],
+              [&](std::size_t q) { return volumes_[q] * table[q].value[a]; });
+    }
+    close_group();
+  }
+
+  SpreadingPoints take() { return std::move(result_); }
+
+ private:
+  const std::vector<TabulatedPoint>& points_for(ElementKind kind, double volume) {
+    const double ratio = volume > 0 && target_size_ > 0 ? std::cbrt(volume) / target_size_ : 1.0;
+    // Two points along each edge of a target element; the 0.01 keeps equal meshes at two in spite of round-off.
+    const int n = static_cast<int>(std::clamp(std::ceil(2 * ratio - 0.01), double{fewest}, double{most}));
+    std::vector<TabulatedPoint>& table = subdivisions_[{kind, n}];
+    if (table.empty()) table = subdivision_points(kind, n);
+    return table;
+  }
+
+  /// Integrals of the shape functions over the element, m^3.
+  std::array<double, max_nodes> node_volumes(ElementKind kind, const Corners& corners) {
+    std::vector<TabulatedPoint>& rule = rules_[kind];
+    if (rule.empty()) rule = quadrature_points(kind);
+    std::array<double, max_nodes> part{};
+    const int nodes = topology(kind).nodes;
+    for (const TabulatedPoint& point : rule) {
+      const double w = point.weight * determinant(point, nodes, corners);
+      for (std::size_t a = 0; a < static_cast<std::size_t>(nodes); ++a) part[a] += w * point.value[a];
+    }
+    return part;
+  }
+
+  void open_group(GlobalId id, std::span<const Vec3> places) {
+    result_.points.insert(result_.points.end(), places.begin(), places.end());
+    result_.ids.insert(result_.ids.end(), places.size(), id);
+  }
+  /// `weight(q)` of the points of the open group, in any scale.
+  template <typename Weight>
+  void share(const Items& items, std::size_t item, double amount, Weight&& weight) {
+    const std::size_t count = result_.points.size() - result_.begin.back();
+    double sum = 0;
+    for (std::size_t q = 0; q < count; ++q) sum += weight(q);
+    if (!(sum > 0)) return;
+    result_.shares.push_back(
+        {items.ids[item], items.owners[item], items.at_owner[item], amount, result_.weights.size()});
+    for (std::size_t q = 0; q < count; ++q) result_.weights.push_back(weight(q) / sum);
+  }
+  void close_group() {
+    result_.begin.push_back(result_.points.size());
+    result_.first_share.push_back(result_.shares.size());
+  }
+
+  const Side& source_;
+  double target_size_;
+  bool density_;
+  SpreadingPoints result_;
+  std::map<std::pair<ElementKind, int>, std::vector<TabulatedPoint>> subdivisions_;
+  std::map<ElementKind, std::vector<TabulatedPoint>> rules_;
+  std::vector<Vec3> places_;
+  std::vector<double> volumes_;
+};
+
+}  // namespace
+
+SpreadingPoints spreading_points(const Side& source, const Side& target, bool density) {
+  Spreader spreader(source, typical_size(target), density);
+  if (source.location == Location::node && !density) {
+    spreader.nodes();
+  } else {
+    for_each_element(source.mesh, [&](LocalIndex item, const ElementBlock& block, LocalIndex e) {
+      if (block.owners[static_cast<std::size_t>(e)] == source.mesh.comm.rank()) spreader.element(block, e, item);
+    });
+  }
+  return spreader.take();
+}
+
+}  // namespace tenon::transfer
