@@ -2,16 +2,22 @@
 // Local search among boxes: a packed tree over Morton-sorted boxes. Serves transfer, contact and particles.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
 #include <span>
 #include <vector>
 
-#include "framework/base/types.hpp"
 #include "framework/base/box.hpp"
+#include "framework/base/types.hpp"
 
 namespace tenon {
 
 /// An implicit tree of fixed fan-out over boxes sorted by the Morton code of their centres; flat arrays, no
-/// pointers. Boxes may differ in size by any factor, coincide, or be points.
+/// pointers. Boxes may differ in size by any factor, coincide, or be points. A box with a coordinate that is not a
+/// number is never found. Queries may run in several threads at once and allocate nothing but room in `found`.
 class BoxTree {
  public:
   BoxTree() = default;
@@ -19,28 +25,86 @@ class BoxTree {
 
   /// Rebuilds for new boxes.
   void build(std::span<const Box> boxes);
-  LocalIndex size() const { return count_; }
+  LocalIndex size() const { return static_cast<LocalIndex>(order_.size()); }
 
   /// Indices of all boxes that contain the point, appended in no particular order.
   void containing(const Vec3& point, std::vector<LocalIndex>& found) const;
   /// Indices of all boxes that overlap the box, appended in no particular order.
   void overlapping(const Box& box, std::vector<LocalIndex>& found) const;
 
-  /// Visits boxes in order of nearness: calls `distance(index)`, which returns the true distance from the point
+  /// Visits boxes, the nearer branch first: calls `distance(index)`, which returns the true distance from the point
   /// to what is in that box, only where the box is nearer than, or exactly as near as, the best so far; so every
-  /// item at the least distance is visited. Returns the least distance (infinity if there are no boxes).
+  /// item at the least distance is visited. ("As near" allows for round-off: 1e-14 of the distance and of the
+  /// coordinates.) Boxes farther than `limit` are not visited. Returns the least distance, or infinity if nothing was
+  /// found within `limit`.
   template <typename Distance>
   double nearest(const Vec3& point, double limit, Distance&& distance) const;
 
  private:
   static constexpr int fan_out = 8;
-  struct Node {
-    Box box;
+  static constexpr int max_levels = 11;  // 8^11 > 2^31
+  /// Eight children, coordinate by coordinate, rounded outward; those that are not there are empty.
+  struct Group {
+    std::array<std::array<float, fan_out>, 3> low, high;
   };
-  LocalIndex count_ = 0;
-  std::vector<LocalIndex> order_;        // sorted position -> caller's index
-  std::vector<Node> nodes_;              // level by level, leaves first
-  std::vector<LocalIndex> level_begin_;  // first node of each level; level 0 = one node per box
+  struct Candidate {
+    double distance;  // from the point to the box of the child, never too great
+    int level;
+    LocalIndex child;
+  };
+
+  const Group& group(int level, LocalIndex child) const { return groups_[level_begin_[level] + child]; }
+  std::array<double, fan_out> squared_distances(const Group& group, const Vec3& point) const;
+  template <typename Hit>
+  void visit_overlapping(const Box& box, Hit&& hit) const;
+
+  std::vector<LocalIndex> order_;  // sorted position -> caller's index
+  std::vector<Box> boxes_;         // sorted
+  /// Level by level. Group g of level 0 holds the sorted boxes 8g .. 8g+7; child c of a group of level n > 0 is the
+  /// group c of level n-1. The top level has one group.
+  std::vector<Group> groups_;
+  std::array<std::size_t, max_levels> level_begin_{};
+  int levels_ = 0;
 };
+
+template <typename Distance>
+double BoxTree::nearest(const Vec3& point, double limit, Distance&& distance) const {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  constexpr double slack = 1e-14;
+  const double extent = std::max({std::abs(point[0]), std::abs(point[1]), std::abs(point[2])});
+  double best = infinity, reach = 0;
+  const auto shorten = [&](double to) {
+    reach = std::min(to + slack * (to + extent), std::numeric_limits<double>::max());
+  };
+  shorten(limit);
+
+  std::array<Candidate, fan_out * max_levels> stack;
+  std::size_t waiting = 0;
+  if (levels_ > 0) stack[waiting++] = {0.0, levels_ - 1, 0};
+  while (waiting > 0) {
+    const Candidate here = stack[--waiting];
+    if (!(here.distance <= reach)) continue;
+    if (here.level < 0) {
+      const auto sorted = static_cast<std::size_t>(here.child);
+      if (!(boxes_[sorted].distance(point) <= reach)) continue;
+      const double d = distance(order_[sorted]);
+      if (d < best) {
+        best = d;
+        if (best < limit) shorten(best);
+      }
+      continue;
+    }
+    const std::array<double, fan_out> squared = squared_distances(group(here.level, here.child), point);
+    const std::size_t first = waiting;
+    for (int k = 0; k < fan_out; ++k) {
+      const double d = std::sqrt(squared[static_cast<std::size_t>(k)]);
+      if (!(d <= reach)) continue;
+      std::size_t place = waiting++;  // the nearest goes on top
+      for (; place > first && stack[place - 1].distance < d; --place) stack[place] = stack[place - 1];
+      stack[place] = {d, here.level - 1, fan_out * here.child + k};
+    }
+  }
+  return best <= limit ? best : infinity;
+}
 
 }  // namespace tenon

@@ -18,9 +18,13 @@ namespace tenon {
 class DistributedSearch {
  public:
   /// Collective. `boxes` and `points` are those of this rank (either may be empty). `reach` (m) is how far a
-  /// point may be from a box and still meet it: clones go to every part within reach.
+  /// point may be from a box and still meet it: clones go to every part within reach. Boxes that are empty or not
+  /// finite go nowhere; a point that is not finite goes to rank 0.
   DistributedSearch(const Communicator& comm, std::span<const Box> boxes, std::span<const Vec3> points, double reach,
                     std::string name);
+  /// The same with cuts kept by the caller, so that a search after small motion moves few items.
+  DistributedSearch(const Communicator& comm, Rcb& rcb, std::span<const Box> boxes, std::span<const Vec3> points,
+                    double reach, std::string name);
 
   /// Moves data of boxes to the rendezvous; a box that overlaps several parts is cloned. Item i of this plan is
   /// box `box_of_send()[i]` of the caller.
@@ -35,6 +39,9 @@ class DistributedSearch {
   std::span<const Box> arrived_boxes() const { return arrived_boxes_; }
 
  private:
+  void search(const Communicator& comm, Rcb& rcb, std::span<const Box> boxes, std::span<const Vec3> points,
+              double reach, const std::string& name);
+
   ExchangePlan box_plan_, point_plan_;
   std::vector<LocalIndex> box_of_send_;
   std::vector<Vec3> arrived_points_;
