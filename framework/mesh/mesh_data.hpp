@@ -14,7 +14,7 @@ namespace tenon {
 /// Elements of one kind that share a name. Global element ids count through the blocks in order.
 struct BlockData {
   std::string name;
-  std::int64_t label = 0;              ///< id in the file
+  std::int64_t label = 0;  ///< id in the file
   ElementKind kind = ElementKind::hex8;
   std::vector<GlobalId> connectivity;  ///< elements x nodes, 0-based node numbers
   std::vector<std::int64_t> labels;    ///< element ids in the file
@@ -46,6 +46,7 @@ struct MeshData {
   std::vector<BlockData> blocks;
   std::vector<NodeSetData> node_sets;
   std::vector<SideSetData> side_sets;
+  std::vector<std::string> warnings;  ///< what a reader left out or renamed, for the log
 
   std::size_t elements() const {
     std::size_t n = 0;
@@ -70,10 +71,11 @@ struct MeshSummary {
 MeshSummary summarise(const MeshData& mesh);
 
 /// Throws Error(geometry) naming the first elements (label, block, place) of a solid whose Jacobian determinant is not
-/// positive at a corner, Error(file) for connectivity out of range, repeated nodes in an element or coordinates not finite.
+/// positive at a corner, or a surface element without area; Error(file) for connectivity out of range, repeated nodes
+/// in an element or coordinates not finite. Lists at most five of them and says how many there are.
 void check(const MeshData& mesh);
 
-/// Sides of solid elements that no other element shares, ascending; surface elements give side 0.
+/// Sides of solid elements that no other solid shares, ascending; surface elements give side 0.
 std::vector<SideData> skin(const MeshData& mesh);
 /// Adds the side set "skin" and, for every side set, a node set of the same name where there is none yet.
 void add_derived_sets(MeshData& mesh);
