@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Meshes of simple shapes, with graded spacing. Every one has node sets and side sets on its faces.
+// Meshes of simple shapes, with graded spacing. Every one has node sets and side sets on its faces, and positive
+// Jacobians; shapes that make no sense throw Error(usage), distortions that invert an element Error(geometry).
 #pragma once
 
 #include <array>
@@ -11,11 +12,13 @@ namespace tenon {
 
 /// Grading g: ratio of the last to the first interval along an axis (geometric); 1 = uniform.
 struct BoxShape {
-  Vec3 low{0, 0, 0}, high{1, 1, 1};     ///< m
+  Vec3 low{0, 0, 0}, high{1, 1, 1};  ///< m
   std::array<int, 3> elements{1, 1, 1};
   Vec3 grading{1, 1, 1};
-  bool tetrahedra = false;              ///< six tet4 per cell, conforming
-  double distortion = 0;                ///< random shift of interior nodes, fraction of the cell, keyed by node id
+  bool tetrahedra = false;  ///< six tet4 per cell, conforming
+  /// Random shift of interior nodes in each direction, up to this fraction of the smaller interval beside them, < 0.5:
+  /// u = (m(m(seed) + 4 id + direction) >> 11) 2^-53, m = splitmix64 [SLF14], shift (2u - 1) distortion interval.
+  double distortion = 0;
   std::uint64_t seed = 1;
 };
 /// Block "box"; sets "x_min" ... "z_max" (nodes and sides).
@@ -24,9 +27,9 @@ MeshData generate(const BoxShape& shape);
 /// Solid cylinder about z from z = 0 to `length`: a butterfly of five hex blocks. `fraction` 1 = full, 0.25 = quarter
 /// (x, y >= 0, sets "x_min" and "y_min" on the cut faces).
 struct CylinderShape {
-  double radius = 1, length = 1;        ///< m
-  int core = 4;                         ///< elements across the core square (full), half of it in a quarter
-  int shell = 4;                        ///< elements from core to surface
+  double radius = 1, length = 1;  ///< m
+  int core = 4;                   ///< elements across the core square (full), half of it in a quarter
+  int shell = 4;                  ///< elements from core to surface
   int axial = 8;
   double axial_grading = 1;
   double fraction = 1;
@@ -60,5 +63,11 @@ struct PlateShape {
   bool triangles = false;
 };
 MeshData generate(const PlateShape& shape);
+
+/// The same mesh of simplices: every hex8 into six tet4, wedge6 into three, pyramid5 into two, quad4 into two tri3.
+/// Conforming for any mesh: a quadrilateral is cut by the diagonal at its least node number, and a solid into the
+/// cone from its least node number over the triangles of the sides that do not touch it (pulling triangulation, as in
+/// [DLVC99]). Sets go along. New elements of a block stand in the order of the old ones, labelled from 1.
+MeshData tetrahedralise(const MeshData& mesh);
 
 }  // namespace tenon

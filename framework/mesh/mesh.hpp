@@ -23,7 +23,7 @@ struct ElementBlock {
   std::vector<int> owners;               ///< rank that owns each
   std::vector<LocalIndex> connectivity;  ///< elements x nodes, local node indices
   GlobalId global_count = 0;
-  GlobalId first_id = 0;                 ///< global ids of the block: first_id .. first_id + global_count - 1
+  GlobalId first_id = 0;  ///< global ids of the block: first_id .. first_id + global_count - 1
   LocalIndex size() const { return static_cast<LocalIndex>(ids.size()); }
   std::span<const LocalIndex> nodes(LocalIndex element) const {
     const auto n = static_cast<std::size_t>(topology(kind).nodes);
@@ -62,8 +62,8 @@ class Mesh {
   std::vector<GlobalId> node_ids;         ///< ascending
   std::vector<std::int64_t> node_labels;  ///< ids in the file, for messages
   std::vector<int> node_owners;
-  std::vector<Vec3> coordinates;          ///< reference coordinates, m
-  std::vector<LocalIndex> owned_nodes;    ///< local indices of owned nodes, ascending
+  std::vector<Vec3> coordinates;        ///< reference coordinates, m
+  std::vector<LocalIndex> owned_nodes;  ///< local indices of owned nodes, ascending
   std::vector<ElementBlock> blocks;
   std::vector<NodeSet> node_sets;
   std::vector<SideSet> side_sets;
@@ -80,6 +80,12 @@ class Mesh {
   const NodeSet* find_node_set(std::string_view name) const;
   const SideSet* find_side_set(std::string_view name) const;
 };
+
+/// Elements of the block that `rank` owns, ascending.
+std::vector<LocalIndex> owned_elements(const ElementBlock& block, int rank);
+
+/// Collective. The summary that rank 0 holds, on all ranks.
+MeshSummary broadcast_summary(const Communicator& comm, const MeshSummary& summary);
 
 /// Relative cost of an element, for the partition; by block.
 using ElementCost = std::function<double(const std::string& block, ElementKind kind)>;

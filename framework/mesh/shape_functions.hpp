@@ -11,7 +11,8 @@
 namespace tenon {
 
 /// Values N_a and derivatives dN_a/dxi_j at local coordinates xi. hex8: xi in [-1,1]^3; tet4: xi >= 0, sum <= 1.
-/// wedge6: (xi,eta) a triangle as tet4, zeta in [-1,1]; pyramid5: base [-1,1]^2, zeta in [0,1]; quad4 [-1,1]^2; tri3.
+/// wedge6: (xi,eta) a triangle as tet4, zeta in [-1,1]; quad4: [-1,1]^2; tri3 as tet4. pyramid5: base [-1,1]^2, zeta in
+/// [0,1], |xi| and |eta| <= 1 - zeta, rational functions that fit hex8 and tet4 beside it [Bed92].
 void shape_values(ElementKind kind, const Vec3& xi, std::span<double> values);
 void shape_gradients(ElementKind kind, const Vec3& xi, std::span<Vec3> gradients);
 

@@ -21,8 +21,8 @@ inline constexpr int max_side_nodes = 4;
 /// 2: the reverse), then the edges, as in Exodus shells.
 struct Topology {
   ElementKind kind;
-  std::string_view name;    ///< "hex8"
-  int dimension;            ///< of the element itself: 3 solid, 2 surface
+  std::string_view name;  ///< "hex8"
+  int dimension;          ///< of the element itself: 3 solid, 2 surface
   int nodes;
   int sides;
   std::array<std::int8_t, max_sides> side_nodes;  ///< nodes of each side

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where in an element a point lies: Newton on x(xi) = point, kept on the branch of the map that holds the element.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "framework/mesh/shape_functions.hpp"
+#include "framework/mesh/trilinear.hpp"
+
+namespace tenon {
+
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr int most_iterations = 60;
+
+double greatest(const Vec3& v) {
+  return std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])});
+}
+
+/// Solves [j0 j1 j2] d = r by Cramer's rule; returns the determinant, and leaves d alone if that is zero or not finite.
+double solve(const std::array<Vec3, 3>& j, const Vec3& r, Vec3& d) {
+  const Vec3 c12 = cross(j[1], j[2]);
+  const double determinant = dot(j[0], c12);
+  if (!(std::abs(determinant) > 0) || !std::isfinite(determinant)) return 0;
+  const Vec3 c20 = cross(j[2], j[0]), c01 = cross(j[0], j[1]);
+  const double inverse = 1 / determinant;
+  if (!std::isfinite(inverse)) return 0;
+  d = {dot(c12, r) * inverse, dot(c20, r) * inverse, dot(c01, r) * inverse};
+  return determinant;
+}
+
+/// The map of a hex8 seen from the point: zero where x(xi) = point.
+struct HexResidual {
+  Trilinear map;
+  double noise;  ///< residual that is round-off, m
+  HexResidual(std::span<const Vec3> corners, const Vec3& point) : map(corners, point), noise(0) {
+    // Products of corner differences with |xi| near 1: a few roundings of the largest distance from the point.
+    for (const Vec3* v : {&map.c, &map.x, &map.y, &map.z}) noise += greatest(*v);
+    noise *= 2 * epsilon;
+  }
+  Vec3 value(const Vec3& xi) const { return map.value(xi); }
+  std::array<Vec3, 3> jacobian(const Vec3& xi) const { return map.jacobian(xi); }
+};
+
+/// The same for the other solids, through their shape functions.
+struct GeneralResidual {
+  ElementKind kind;
+  std::array<Vec3, max_element_nodes> corner;
+  std::size_t nodes;
+  double noise = 0;
+  GeneralResidual(ElementKind k, std::span<const Vec3> corners, const Vec3& point)
+      : kind(k), nodes(static_cast<std::size_t>(topology(k).nodes)) {
+    for (std::size_t a = 0; a < nodes; ++a) {
+      corner[a] = corners[a] - point;
+      noise = std::max(noise, 4 * epsilon * greatest(corner[a]));
+    }
+  }
+  Vec3 value(const Vec3& xi) const { return map_to_space(kind, std::span(corner.data(), nodes), xi); }
+  std::array<Vec3, 3> jacobian(const Vec3& xi) const {
+    std::array<Vec3, max_element_nodes> g;
+    shape_gradients(kind, xi, g);
+    std::array<Vec3, 3> j{};
+    for (std::size_t a = 0; a < nodes; ++a)
+      for (std::size_t i = 0; i < 3; ++i) j[i] = j[i] + g[a][i] * corner[a];
+    return j;
+  }
+};
+
+struct Outcome {
+  InverseMap map;
+  bool right_branch = false;  ///< the Jacobian is positive at the solution, as within the element
+};
+
+/// Newton with steps of at most the distance to the centre plus 1 (it may overshoot to another branch else), halved
+/// until the residual falls. Converged when a full step was so small that the next, quadratically smaller, is
+/// round-off, or when the residual itself is.
+template <typename Residual>
+Outcome newton(const Residual& f, const Vec3& start) {
+  Outcome best;
+  best.map.xi = start;
+  Vec3 xi = start;
+  Vec3 r = f.value(xi);
+  double squared = dot(r, r);
+  for (int i = 0; i < most_iterations; ++i) {
+    Vec3 step;
+    const double determinant = solve(f.jacobian(xi), r, step);
+    if (determinant == 0) return best;
+    const double length = greatest(step), reach = 1 + greatest(xi);
+    double damp = length > reach ? reach / length : 1;
+    const bool last = length < 1e-9 * reach || greatest(r) <= f.noise;
+    Vec3 next = xi - damp * step;
+    if (last) {
+      best.map = {next, true};
+      best.right_branch = determinant > 0;
+      return best;
+    }
+    Vec3 next_r = f.value(next);
+    double next_squared = dot(next_r, next_r);
+    for (int halving = 0; !(next_squared < squared) && halving < 12; ++halving) {
+      damp *= 0.5;
+      next = xi - damp * step;
+      next_r = f.value(next);
+      next_squared = dot(next_r, next_r);
+    }
+    if (!(next_squared < squared)) {
+      best.map.converged = greatest(r) <= 16 * f.noise;  // nothing left but round-off
+      best.right_branch = determinant > 0;
+      return best;
+    }
+    xi = next, r = next_r, squared = next_squared;
+    best.map.xi = xi;
+  }
+  return best;
+}
+
+/// Newton from the centre, and, should that fail or end on a folded branch of the map, from eight places around it:
+/// of the solutions found on the right branch, that nearest to the element.
+template <typename Residual>
+InverseMap search(ElementKind kind, const Residual& f) {
+  const Outcome first = newton(f, element_centre(kind));
+  if (first.map.converged && first.right_branch) return first.map;
+  InverseMap best = first.map;
+  bool best_right = false;
+  double best_overshoot = first.map.converged ? overshoot(kind, first.map.xi) : std::numeric_limits<double>::infinity();
+  for (const QuadraturePoint& q : quadrature(kind)) {
+    const Outcome other = newton(f, q.xi);
+    if (!other.map.converged || (best_right && !other.right_branch)) continue;
+    const double outside = overshoot(kind, other.map.xi);
+    if ((other.right_branch && !best_right) || outside < best_overshoot) {
+      best = other.map, best_right = other.right_branch, best_overshoot = outside;
+    }
+  }
+  return best;
+}
+
+InverseMap tet_inverse(std::span<const Vec3> corners, const Vec3& point) {
+  InverseMap result{element_centre(ElementKind::tet4), false};
+  const std::array<Vec3, 3> j{corners[1] - corners[0], corners[2] - corners[0], corners[3] - corners[0]};
+  result.converged = solve(j, point - corners[0], result.xi) != 0;
+  return result;
+}
+
+}  // namespace
+
+InverseMap inverse_map(ElementKind kind, std::span<const Vec3> corners, const Vec3& point) {
+  if (kind == ElementKind::tet4) return tet_inverse(corners, point);
+  if (kind == ElementKind::hex8) return search(kind, HexResidual(corners, point));
+  return search(kind, GeneralResidual(kind, corners, point));
+}
+
+double overshoot(ElementKind kind, const Vec3& xi) {
+  const double x = std::abs(xi[0]), y = std::abs(xi[1]), z = std::abs(xi[2]);
+  double outside = 0;
+  switch (kind) {
+    case ElementKind::hex8:
+      outside = std::max({x, y, z}) - 1;
+      break;
+    case ElementKind::tet4:
+      outside = 2 * std::max({-xi[0], -xi[1], -xi[2], xi[0] + xi[1] + xi[2] - 1});
+      break;
+    case ElementKind::wedge6:
+      outside = std::max(2 * std::max({-xi[0], -xi[1], xi[0] + xi[1] - 1}), z - 1);
+      break;
+    case ElementKind::pyramid5:
+      outside = std::max(-2 * xi[2], std::max(x, y) + xi[2] - 1);
+      break;
+    case ElementKind::quad4:
+      outside = std::max(x, y) - 1;
+      break;
+    case ElementKind::tri3:
+      outside = 2 * std::max({-xi[0], -xi[1], xi[0] + xi[1] - 1});
+      break;
+  }
+  return std::max(outside, 0.0);
+}
+
+}  // namespace tenon
