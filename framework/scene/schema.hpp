@@ -29,24 +29,24 @@ struct Range {
 /// What one key holds.
 struct Key {
   enum class Type {
-    quantity,   ///< number with a unit; `unit` is the SI unit that it must be convertible to ("1": plain number)
+    quantity,  ///< number with a unit; `unit` is the SI unit that it must be convertible to ("1": plain number)
     integer,
     flag,
     text,
-    choice,     ///< one of `choices`
-    reals,      ///< list of quantities of one unit
-    vector,     ///< three quantities of one unit
-    texts,      ///< list of words, or one word
-    function,   ///< quantity, or {table: [[t, v], ...]}, {sine: {...}}, {smooth_step: {...}}
-    object,     ///< nested mapping of schema `nested`
-    list,       ///< list of mappings of schema `nested`
-    named,      ///< mapping of named blocks, each of schema `nested`
-    variants    ///< mapping of one of several schemas, chosen by its key `type`; see `variants`
+    choice,    ///< one of `choices`
+    reals,     ///< list of quantities of one unit
+    vector,    ///< three quantities of one unit
+    texts,     ///< list of words, or one word
+    function,  ///< quantity, or {table: [[t, v], ...]}, {sine: {...}}, {smooth_step: {...}}
+    object,    ///< nested mapping of schema `nested`
+    list,      ///< list of mappings of schema `nested`
+    named,     ///< mapping of named blocks, each of schema `nested`
+    variants   ///< mapping of one of several schemas, chosen by its key `type`; see `variants`
   };
   std::string name;
   Type type = Type::text;
-  std::string doc;    ///< one sentence for the reference
-  std::string unit;   ///< SI unit of quantities
+  std::string doc;   ///< one sentence for the reference
+  std::string unit;  ///< SI unit of quantities
   Range range;
   bool required = false;
   std::string default_value;  ///< as it would be written in a scene; empty: none
@@ -56,7 +56,8 @@ struct Key {
   std::vector<std::pair<std::string, std::shared_ptr<const Schema>>> variants;
 };
 
-/// The keys of one mapping.
+/// The keys of one mapping. Mistakes in a schema (a key twice, a default that its own key refuses) are
+/// std::logic_error. Units are SI; "delta_K" is K for differences of temperature, where 5 degC would be ambiguous.
 class Schema {
  public:
   explicit Schema(std::string doc) : doc_(std::move(doc)) {}
@@ -77,15 +78,19 @@ class Schema {
   Schema& list(std::string name, Schema nested, std::string doc);
   Schema& named(std::string name, Schema nested, std::string doc);
   /// Mapping, or named blocks, or list whose entries have a key `type` that chooses the schema.
-  Schema& variants(std::string name, Key::Type container,
-                   std::vector<std::pair<std::string, Schema>> variants, std::string doc);
-  /// Makes the key added last required.
+  Schema& variants(std::string name, Key::Type container, std::vector<std::pair<std::string, Schema>> variants,
+                   std::string doc);
+  /// Make the key added last required, or give it a default (as written in a scene) or a range.
   Schema& required();
+  Schema& with_default(std::string default_value);
+  Schema& with_range(Range range);
   /// Exactly one, or at most one, of these keys must be given.
   Schema& exactly_one(std::vector<std::string> keys);
   Schema& at_most_one(std::vector<std::string> keys);
 
   const std::string& doc() const { return doc_; }
+  /// The key of this name, or nullptr.
+  const Key* find(const std::string& name) const;
   const std::vector<Key>& keys() const { return keys_; }
   struct Group {
     std::vector<std::string> keys;
@@ -94,6 +99,8 @@ class Schema {
   const std::vector<Group>& groups() const { return groups_; }
 
  private:
+  Schema& add(Key key);
+  void check_default(const Key& key) const;
   std::string doc_;
   std::vector<Key> keys_;
   std::vector<Group> groups_;
@@ -109,11 +116,12 @@ struct Override {
 Value parse_scene(const std::string& text, const std::string& file, const std::vector<Override>& overrides,
                   const Schema& schema, Diagnostics& diagnostics);
 
-/// The scene reference as Markdown; of one section (a top-level key or a dotted path) if given. Throws Error(usage) with the
-/// nearest section if there is none.
+/// The scene reference as Markdown; of one section (a top-level key or a dotted path) if given. Throws Error(usage)
+/// with the nearest section if there is none.
 std::string scene_reference(const Schema& schema, const std::string& section = "");
 
-/// Converts "7.85 g/cm^3" to the SI unit `to`; plain numbers are SI. Throws std::invalid_argument saying what was expected.
+/// Converts "7.85 g/cm^3" to the SI unit `to`; plain numbers are SI. Throws std::invalid_argument saying what was
+/// expected.
 double parse_quantity(const std::string& text, const std::string& to);
 
 }  // namespace tenon::scene

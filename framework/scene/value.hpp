@@ -2,6 +2,7 @@
 // A validated scene: a tree of values in SI units, each of which knows its line.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <utility>
@@ -42,14 +43,16 @@ class Diagnostics {
   std::vector<std::string> errors_, warnings_;
 };
 
-/// One value of a validated scene. Defaults are filled in, quantities are in SI. Asking for a key that the schema does not
-/// have is a programming error (std::logic_error); an optional key without a default is absent: test with `has`.
+/// One value of a validated scene. Defaults are filled in, quantities are in SI. Asking for a key that the schema does
+/// not have is a programming error (std::logic_error); an optional key without a default is absent: test with `has`.
 class Value {
  public:
   struct Data;
   explicit Value(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
 
   bool has(const std::string& key) const;
+  /// Whether the scene itself states the key; false if a default stands in.
+  bool given(const std::string& key) const;
   double real(const std::string& key) const;
   std::int64_t integer(const std::string& key) const;
   bool flag(const std::string& key) const;
@@ -58,11 +61,11 @@ class Value {
   Vec3 vector(const std::string& key) const;
   std::vector<std::string> texts(const std::string& key) const;
   TimeFunction function(const std::string& key) const;
-  /// A nested mapping.
+  /// A nested mapping. If the scene leaves it out (has() is false) and its keys all have defaults, those.
   Value child(const std::string& key) const;
-  /// A list of mappings.
+  /// A list of mappings; empty if absent, as `reals` and `texts` are.
   std::vector<Value> items(const std::string& key) const;
-  /// A mapping of named blocks, in the order of the file.
+  /// A mapping of named blocks, in the order of the file; empty if absent.
   std::vector<std::pair<std::string, Value>> entries(const std::string& key) const;
 
   /// Where the value of a key stands (of the mapping itself if the key is absent or empty).
