@@ -36,22 +36,20 @@ LocatedEdges locate(const Communicator& comm, const PartitionGraph& graph) {
 }
 
 std::vector<int> by_rcb(const Communicator& comm, const PartitionGraph& graph, int parts) {
-  ZoltanPartitioner zoltan(comm);
+  ZoltanPartitioner zoltan(comm, parts);
   zoltan.set("LB_METHOD", "RCB");
   zoltan.set("CHECK_GEOM", "0");
-  zoltan.set("NUM_GLOBAL_PARTS", std::to_string(parts));
   return zoltan.partition({.coordinates = graph.centroids, .weights = graph.weights});
 }
 
 std::vector<int> by_graph(const Communicator& comm, const PartitionGraph& graph, int parts) {
   const LocatedEdges edges = locate(comm, graph);
-  ZoltanPartitioner zoltan(comm);
+  ZoltanPartitioner zoltan(comm, parts);
   zoltan.set("LB_METHOD", "GRAPH");
   zoltan.set("GRAPH_PACKAGE", "PHG");
   zoltan.set("LB_APPROACH", "PARTITION");
   zoltan.set("IMBALANCE_TOL", "1.03");
   zoltan.set("CHECK_GRAPH", "0");
-  zoltan.set("NUM_GLOBAL_PARTS", std::to_string(parts));
   return zoltan.partition({.coordinates = graph.centroids,
                            .weights = graph.weights,
                            .offsets = edges.offsets,

@@ -12,13 +12,12 @@ struct Rcb::Impl {
   explicit Impl(const Communicator& comm_in)
       : comm(comm_in), found_ranks(static_cast<std::size_t>(comm.size())), found_parts(found_ranks.size()) {
     if (comm.size() == 1) return;
-    zoltan = std::make_unique<ZoltanPartitioner>(comm);
+    zoltan = std::make_unique<ZoltanPartitioner>(comm, comm.size());
     zoltan->set("LB_METHOD", "RCB");
     zoltan->set("KEEP_CUTS", "1");
     zoltan->set("RCB_LOCK_DIRECTIONS", "1");  // otherwise cuts turn, and half of all points move
     zoltan->set("AVERAGE_CUTS", "1");         // cuts between points: fewer boxes of a regular mesh touch them
     zoltan->set("CHECK_GEOM", "0");
-    zoltan->set("NUM_GLOBAL_PARTS", std::to_string(comm.size()));
   }
 
   Communicator comm;

@@ -16,7 +16,7 @@ namespace tenon {
 /// What is to be divided: items of this rank. A neighbour in the graph is named by its rank and its place there.
 struct PartitionItems {
   std::span<const Vec3> coordinates;
-  std::span<const double> weights{};  ///< empty: equal
+  std::span<const double> weights{};      ///< empty: equal
   std::span<const LocalIndex> offsets{};  ///< graph methods only
   std::span<const int> neighbour_rank{};
   std::span<const LocalIndex> neighbour_index{};
@@ -26,7 +26,7 @@ struct PartitionItems {
 class ZoltanPartitioner {
  public:
   /// Collective. Silent, parts numbered as they come (no REMAP).
-  explicit ZoltanPartitioner(const Communicator& comm);
+  ZoltanPartitioner(const Communicator& comm, int parts);
   ~ZoltanPartitioner();
   ZoltanPartitioner(const ZoltanPartitioner&) = delete;
   ZoltanPartitioner& operator=(const ZoltanPartitioner&) = delete;
@@ -42,6 +42,7 @@ class ZoltanPartitioner {
   Zoltan_Struct* zoltan_ = nullptr;
   PartitionItems items_;
   int rank_ = 0;
+  int assumed_part_ = 0;  ///< of every item of this rank before
   friend struct ZoltanCallbacks;
 };
 
