@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "components/thermal/conduction_matrix.hpp"
+
+#include <algorithm>
+
+namespace tenon::thermal {
+namespace {
+
+/// Nodes that share an element with each row's node, ascending, without the node itself.
+std::vector<std::vector<LocalIndex>> neighbours(const Mesh& mesh, const std::vector<LocalIndex>& row_of_node) {
+  std::vector<std::vector<LocalIndex>> of_row(mesh.owned_nodes.size());
+  for (const ElementBlock& block : mesh.blocks)
+    for (LocalIndex e = 0; e < block.size(); ++e)
+      for (const LocalIndex i : block.nodes(e)) {
+        const LocalIndex row = row_of_node[static_cast<std::size_t>(i)];
+        if (row == no_index) continue;
+        std::vector<LocalIndex>& list = of_row[static_cast<std::size_t>(row)];
+        for (const LocalIndex j : block.nodes(e))
+          if (j != i) list.push_back(j);
+      }
+  for (std::vector<LocalIndex>& list : of_row) {
+    std::ranges::sort(list);
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+  }
+  return of_row;
+}
+
+}  // namespace
+
+ConductionMatrix::ConductionMatrix(const Mesh& mesh, std::vector<double> conductivity_of_block)
+    : mesh_(mesh), conductivity_(std::move(conductivity_of_block)) {
+  for (const ElementBlock& block : mesh.blocks) tables_.emplace_back(block.kind);
+  make_pattern();
+  place_elements();
+}
+
+void ConductionMatrix::make_pattern() {
+  row_of_node_.assign(static_cast<std::size_t>(mesh_.nodes()), no_index);
+  for (std::size_t r = 0; r < mesh_.owned_nodes.size(); ++r)
+    row_of_node_[static_cast<std::size_t>(mesh_.owned_nodes[r])] = static_cast<LocalIndex>(r);
+  offsets_.assign(1, 0);
+  for (const std::vector<LocalIndex>& row : neighbours(mesh_, row_of_node_)) {
+    columns_.insert(columns_.end(), row.begin(), row.end());
+    offsets_.push_back(static_cast<LocalIndex>(columns_.size()));
+  }
+  values_.assign(columns_.size(), 0.0);
+  diagonal_.assign(mesh_.owned_nodes.size(), 0.0);
+}
+
+void ConductionMatrix::place_elements() {
+  const auto place = [this](LocalIndex i, LocalIndex j) {
+    const LocalIndex row = row_of_node_[static_cast<std::size_t>(i)];
+    if (row == no_index) return no_index;
+    const auto first = columns_.begin() + offsets_[static_cast<std::size_t>(row)];
+    const auto last = columns_.begin() + offsets_[static_cast<std::size_t>(row) + 1];
+    return static_cast<LocalIndex>(std::lower_bound(first, last, j) - columns_.begin());
+  };
+  for (const ElementBlock& block : mesh_.blocks) {
+    first_place_.push_back(places_.size());
+    for (LocalIndex e = 0; e < block.size(); ++e) {
+      const auto nodes = block.nodes(e);
+      for (std::size_t a = 0; a < nodes.size(); ++a)
+        for (std::size_t b = a + 1; b < nodes.size(); ++b) {
+          places_.push_back(place(nodes[a], nodes[b]));
+          places_.push_back(place(nodes[b], nodes[a]));
+        }
+    }
+  }
+}
+
+ConductionMatrix::BadElement ConductionMatrix::assemble(std::span<const Vec3> coordinates) {
+  std::ranges::fill(values_, 0.0);
+  stiffest_ = {};
+  LocalIndex first_element = 0;
+  for (std::size_t b = 0; b < mesh_.blocks.size(); ++b) {
+    const BadElement bad = assemble_block(static_cast<LocalIndex>(b), first_element, coordinates);
+    if (bad.id != no_id) return bad;
+    first_element += mesh_.blocks[b].size();
+  }
+  for (std::size_t r = 0; r < diagonal_.size(); ++r) {
+    double sum = 0;
+    for (LocalIndex p = offsets_[r]; p < offsets_[r + 1]; ++p) sum += values_[static_cast<std::size_t>(p)];
+    diagonal_[r] = -sum;
+  }
+  return {};
+}
+
+ConductionMatrix::BadElement ConductionMatrix::assemble_block(LocalIndex b, LocalIndex first_element,
+                                                              std::span<const Vec3> coordinates) {
+  const ElementBlock& block = mesh_.blocks[static_cast<std::size_t>(b)];
+  const ElementTable& table = tables_[static_cast<std::size_t>(b)];
+  double conductivity[lanes];
+  std::ranges::fill(conductivity, conductivity_[static_cast<std::size_t>(b)]);
+  CornerBatch corners{};
+  ConductionBatch links;
+  for (LocalIndex first = 0; first < block.size(); first += lanes) {
+    const LocalIndex count = std::min(static_cast<LocalIndex>(lanes), block.size() - first);
+    for (LocalIndex l = 0; l < lanes; ++l) {  // the last batch is padded with its last element
+      const auto nodes = block.nodes(first + std::min(l, count - 1));
+      for (std::size_t a = 0; a < nodes.size(); ++a)
+        for (std::size_t c = 0; c < 3; ++c) corners.x[a][c][l] = coordinates[static_cast<std::size_t>(nodes[a])][c];
+    }
+    conduction(table, corners, conductivity, links);
+    for (LocalIndex l = 0; l < count; ++l) {
+      const LocalIndex e = first + l;
+      if (!(links.least_jacobian[l] > 0)) return {block.ids[static_cast<std::size_t>(e)], b, e};
+      scatter(first_place_[static_cast<std::size_t>(b)] +
+                  static_cast<std::size_t>(2 * table.pairs) * static_cast<std::size_t>(e),
+              links, l, table);
+    }
+    if (!capacity_.empty())
+      note_eigenvalues(table, links, b, first, count, static_cast<std::size_t>(first_element + first));
+  }
+  return {};
+}
+
+void ConductionMatrix::scatter(std::size_t place, const ConductionBatch& links, int lane, const ElementTable& table) {
+  for (int pair = 0; pair < table.pairs; ++pair)
+    for (int way = 0; way < 2; ++way, ++place)
+      if (const LocalIndex p = places_[place]; p != no_index)
+        values_[static_cast<std::size_t>(p)] += links.link[pair][lane];
+}
+
+void ConductionMatrix::note_eigenvalues(const ElementTable& table, const ConductionBatch& links, LocalIndex block,
+                                        LocalIndex first, LocalIndex count, std::size_t first_of_all) {
+  double capacity[max_element_nodes][lanes], bound[lanes];
+  for (LocalIndex l = 0; l < lanes; ++l)
+    for (std::size_t a = 0; a < max_element_nodes; ++a)
+      capacity[a][l] = capacity_[first_of_all + static_cast<std::size_t>(std::min(l, count - 1))][a];
+  eigenvalue_bound(table, links, capacity, bound);
+  for (LocalIndex l = 0; l < count; ++l)
+    if (bound[l] > stiffest_.eigenvalue) stiffest_ = {bound[l], block, first + l};
+}
+
+void ConductionMatrix::conducted(std::span<const double> x, std::span<double> out) const {
+  for (std::size_t r = 0; r < diagonal_.size(); ++r) {
+    const double mine = x[static_cast<std::size_t>(mesh_.owned_nodes[r])];
+    double sum = 0;
+    for (auto p = static_cast<std::size_t>(offsets_[r]); p < static_cast<std::size_t>(offsets_[r + 1]); ++p)
+      sum += values_[p] * (x[static_cast<std::size_t>(columns_[p])] - mine);
+    out[r] = -sum;
+  }
+}
+
+void ConductionMatrix::multiply(std::span<const double> d, double factor, std::span<const double> x,
+                                std::span<double> out) const {
+  for (std::size_t r = 0; r < diagonal_.size(); ++r) {
+    double sum = 0;
+    for (auto p = static_cast<std::size_t>(offsets_[r]); p < static_cast<std::size_t>(offsets_[r + 1]); ++p)
+      sum += values_[p] * x[static_cast<std::size_t>(columns_[p])];
+    out[r] = d[r] * x[static_cast<std::size_t>(mesh_.owned_nodes[r])] + factor * sum;
+  }
+}
+
+std::int64_t ConductionMatrix::memory() const {
+  const auto bytes = [](const auto& v) {
+    return static_cast<std::int64_t>(v.capacity() * sizeof(typename std::decay_t<decltype(v)>::value_type));
+  };
+  return bytes(offsets_) + bytes(columns_) + bytes(values_) + bytes(diagonal_) + bytes(row_of_node_) + bytes(places_) +
+         bytes(capacity_);
+}
+
+}  // namespace tenon::thermal

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The assembled conductivity matrix: rows of the nodes that this rank owns.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "components/thermal/element_conduction.hpp"
+#include "framework/mesh/mesh.hpp"
+
+namespace tenon::thermal {
+
+/// K_ij = integral of k grad N_i . grad N_j over the current configuration, W/K, in compressed rows. Row r belongs to
+/// mesh.owned_nodes[r]; its columns ascend by global id, and the elements add to it in ascending order: the same bits
+/// on any number of ranks, also for K_ij and K_ji on different ranks. The diagonal is minus the sum of the rest of its
+/// row.
+class ConductionMatrix {
+ public:
+  /// Collective only in that every rank makes its own. `conductivity` (W/(m K)) and `capacity` (J/K per node of each
+  /// element, of all blocks one after the other; empty if no eigenvalue bound is wanted) must outlive this.
+  ConductionMatrix(const Mesh& mesh, std::vector<double> conductivity_of_block);
+
+  /// An element whose Jacobian is not positive somewhere, or none.
+  struct BadElement {
+    GlobalId id = no_id;
+    LocalIndex block = no_index, element = no_index;
+  };
+  /// Local. Computes all entries at these node positions. Stops at the first bad element.
+  BadElement assemble(std::span<const Vec3> coordinates);
+
+  /// Greatest bound of an element's eigenvalues of C^-1 K (1/s) among the elements assembled last, and the least id
+  /// that has it. Known only if `bound_with` was called before assembling.
+  struct Stiffest {
+    double eigenvalue = 0;
+    LocalIndex block = no_index, element = no_index;
+  };
+  const Stiffest& stiffest() const { return stiffest_; }
+  /// Lumped capacity of each element at its nodes, J/K: [element of all blocks][max_element_nodes].
+  void bound_with(std::vector<std::array<double, max_element_nodes>> capacity) { capacity_ = std::move(capacity); }
+
+  const ElementTable& table(std::size_t block) const { return tables_[block]; }
+  /// Row of each local node; no_index for ghosts.
+  std::span<const LocalIndex> row_of_node() const { return row_of_node_; }
+  LocalIndex rows() const { return static_cast<LocalIndex>(diagonal_.size()); }
+  std::span<const double> diagonal() const { return diagonal_; }
+
+  /// Local. out_r = -(K x)_r, as a sum of differences: exactly 0 where x is constant. x: all local nodes; out: rows.
+  void conducted(std::span<const double> x, std::span<double> out) const;
+  /// Local. out_r = d_r x_r + factor * (sum over the off-diagonal of row r). x: all local nodes; d, out: rows.
+  void multiply(std::span<const double> d, double factor, std::span<const double> x, std::span<double> out) const;
+
+  std::int64_t memory() const;
+
+ private:
+  void make_pattern();
+  void place_elements();
+  BadElement assemble_block(LocalIndex block, LocalIndex first_element, std::span<const Vec3> coordinates);
+  void scatter(std::size_t place, const ConductionBatch& links, int lane, const ElementTable& table);
+  void note_eigenvalues(const ElementTable& table, const ConductionBatch& links, LocalIndex block, LocalIndex first,
+                        LocalIndex count, std::size_t first_of_all);
+
+  const Mesh& mesh_;
+  std::vector<double> conductivity_;  // of blocks
+  std::vector<ElementTable> tables_;  // of blocks
+  std::vector<LocalIndex> offsets_, columns_;
+  std::vector<double> values_, diagonal_;
+  std::vector<LocalIndex> row_of_node_;                          // no_index for ghosts
+  std::vector<LocalIndex> places_;                               // of K_ab, then K_ba, for each pair of each element
+  std::vector<std::size_t> first_place_;                         // of blocks
+  std::vector<std::array<double, max_element_nodes>> capacity_;  // of elements
+  Stiffest stiffest_;
+};
+
+}  // namespace tenon::thermal

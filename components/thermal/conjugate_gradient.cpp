@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "components/thermal/conjugate_gradient.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tenon::thermal {
+
+ConjugateGradient::ConjugateGradient(const Mesh& mesh) : mesh_(mesh) {
+  const std::size_t rows = mesh.owned_nodes.size();
+  u_.assign(static_cast<std::size_t>(mesh.nodes()), 0.0);
+  for (std::vector<double>* v : {&w_, &p_, &s_}) v->assign(rows, 0.0);
+}
+
+void ConjugateGradient::true_residual(const HeatSystem& system, std::span<const double> b, std::span<double> x,
+                                      std::span<double> r) {
+  mesh_.node_halo.forward(std::span<const double>(x), x);
+  system.matrix.multiply(system.diagonal, system.factor, x, w_);
+  for (std::size_t k = 0; k < r.size(); ++k) r[k] = b[k] - w_[k];
+}
+
+std::array<double, 2> ConjugateGradient::precondition(const HeatSystem& system, std::span<const double> r) {
+  for (std::size_t k = 0; k < r.size(); ++k)
+    u_[static_cast<std::size_t>(mesh_.owned_nodes[k])] = system.inverse_diagonal[k] * r[k];
+  mesh_.node_halo.forward(std::span<const double>(u_), std::span<double>(u_));
+  system.matrix.multiply(system.diagonal, system.factor, u_, w_);
+  std::array<ExactSum, 2> local;
+  for (std::size_t k = 0; k < r.size(); ++k) {
+    const double u = u_[static_cast<std::size_t>(mesh_.owned_nodes[k])];
+    local[0].add(r[k] * u);
+    local[1].add(w_[k] * u);
+  }
+  std::array<double, 2> dots;
+  mesh_.comm.sum(local, dots);
+  return dots;
+}
+
+double ConjugateGradient::scale_of(const HeatSystem& system, std::span<const double> b, std::span<const double> x) {
+  for (std::size_t k = 0; k < b.size(); ++k) {
+    const auto n = static_cast<std::size_t>(mesh_.owned_nodes[k]);
+    u_[n] = system.inverse_diagonal[k] == 0 ? x[n] : 0.0;
+  }
+  mesh_.node_halo.forward(std::span<const double>(u_), std::span<double>(u_));
+  system.matrix.multiply(system.diagonal, system.factor, u_, w_);
+  ExactSum local;
+  for (std::size_t k = 0; k < b.size(); ++k) local.add(system.inverse_diagonal[k] * (b[k] - w_[k]) * (b[k] - w_[k]));
+  return mesh_.comm.sum(local);
+}
+
+int ConjugateGradient::iterate(const HeatSystem& system, std::span<double> x, std::span<double> r,
+                               std::array<double, 2> dots, double target, int budget) {
+  auto [gamma, delta] = dots;
+  double alpha = gamma / delta, beta = 0;
+  int iteration = 0;
+  while (gamma > target && iteration < budget && alpha > 0 && std::isfinite(alpha)) {
+    ++iteration;
+    for (std::size_t k = 0; k < r.size(); ++k) {
+      const auto n = static_cast<std::size_t>(mesh_.owned_nodes[k]);
+      p_[k] = iteration == 1 ? u_[n] : u_[n] + beta * p_[k];
+      s_[k] = iteration == 1 ? w_[k] : w_[k] + beta * s_[k];
+      x[n] += alpha * p_[k];
+      r[k] -= alpha * s_[k];
+    }
+    const double before = gamma;
+    const auto next = precondition(system, r);
+    gamma = next[0], delta = next[1];
+    beta = gamma / before;
+    alpha = gamma / (delta - beta * gamma / alpha);
+  }
+  return iteration;
+}
+
+SolveReport ConjugateGradient::solve(const HeatSystem& system, std::span<const double> b, std::span<double> x,
+                                     std::span<double> residual, double tolerance, int max_iterations) {
+  constexpr int restarts = 5;
+  constexpr double round_off = 64 * std::numeric_limits<double>::epsilon();
+  const double scale = scale_of(system, b, x);
+  SolveReport report;
+  for (int attempt = 0; attempt <= restarts; ++attempt) {
+    true_residual(system, b, x, residual);
+    const auto dots = precondition(system, residual);
+    report.residual = scale > 0 ? std::sqrt(dots[0] / scale) : 0;
+    ExactSum size;
+    for (std::size_t k = 0; k < b.size(); ++k) {
+      const double xk = x[static_cast<std::size_t>(mesh_.owned_nodes[k])];
+      size.add(system.diagonal[k] * xk * xk);
+    }
+    const double floor = round_off * round_off * mesh_.comm.sum(size);
+    report.converged = dots[0] <= std::max(tolerance * tolerance * scale, floor);
+    if (report.converged || report.iterations >= max_iterations || !std::isfinite(dots[0])) break;
+    // A little below the aim, so that the true residual reaches it at once.
+    const double target = 0.25 * tolerance * tolerance * scale;
+    report.iterations += iterate(system, x, residual, dots, target, max_iterations - report.iterations);
+  }
+  return report;
+}
+
+std::int64_t ConjugateGradient::memory() const {
+  return static_cast<std::int64_t>((u_.size() + w_.size() + p_.size() + s_.size()) * sizeof(double));
+}
+
+}  // namespace tenon::thermal

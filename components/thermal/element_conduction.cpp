@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "components/thermal/element_conduction.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "framework/mesh/shape_functions.hpp"
+
+namespace tenon::thermal {
+namespace {
+
+/// Values of eight elements, one per lane.
+struct alignas(64) Lane {
+  double v[lanes];
+};
+
+/// dx_c/dxi_d of each lane.
+void jacobian(const ElementTable& table, const std::array<Vec3, max_element_nodes>& gradient,
+              const CornerBatch& corners, Lane (&j)[3][3]) {
+  for (int c = 0; c < 3; ++c)
+    for (int d = 0; d < 3; ++d) {
+      Lane sum{};
+      for (int a = 0; a < table.nodes; ++a) {
+        const double g = gradient[static_cast<std::size_t>(a)][static_cast<std::size_t>(d)];
+        for (int l = 0; l < lanes; ++l) sum.v[l] += corners.x[a][c][l] * g;
+      }
+      j[c][d] = sum;
+    }
+}
+
+/// Cofactors of j (inverse = cofactors / determinant, transposed) and its determinant.
+void cofactors(const Lane (&j)[3][3], Lane (&cof)[3][3], Lane& det) {
+  for (int c = 0; c < 3; ++c)
+    for (int d = 0; d < 3; ++d) {
+      const Lane &p = j[(c + 1) % 3][(d + 1) % 3], &q = j[(c + 2) % 3][(d + 2) % 3];
+      const Lane &r = j[(c + 1) % 3][(d + 2) % 3], &s = j[(c + 2) % 3][(d + 1) % 3];
+      for (int l = 0; l < lanes; ++l) cof[c][d].v[l] = p.v[l] * q.v[l] - r.v[l] * s.v[l];
+    }
+  for (int l = 0; l < lanes; ++l)
+    det.v[l] = j[0][0].v[l] * cof[0][0].v[l] + j[0][1].v[l] * cof[0][1].v[l] + j[0][2].v[l] * cof[0][2].v[l];
+}
+
+}  // namespace
+
+ElementTable::ElementTable(ElementKind element_kind)
+    : kind(element_kind), nodes(topology(element_kind).nodes), pairs(nodes * (nodes - 1) / 2) {
+  const auto add_point = [this](const Vec3& xi, double w) {
+    const auto p = static_cast<std::size_t>(points++);
+    weight[p] = w;
+    shape_gradients(kind, xi, gradient[p]);
+  };
+  if (kind == ElementKind::tet4)
+    add_point(element_centre(kind), 1.0 / 6);
+  else
+    for (const QuadraturePoint& point : quadrature(kind)) add_point(point.xi, point.weight);
+  shape_gradients(kind, element_centre(kind), centre_gradient);
+}
+
+void conduction(const ElementTable& table, const CornerBatch& corners, const double (&conductivity)[lanes],
+                ConductionBatch& result) {
+  for (int p = 0; p < table.pairs; ++p)
+    for (int l = 0; l < lanes; ++l) result.link[p][l] = 0;
+  for (int l = 0; l < lanes; ++l) result.least_jacobian[l] = std::numeric_limits<double>::infinity();
+
+  Lane j[3][3], cof[3][3], det, factor;
+  Lane b[max_element_nodes][3];  // det times the gradient of N_a in space
+  for (std::size_t q = 0; q < static_cast<std::size_t>(table.points); ++q) {
+    jacobian(table, table.gradient[q], corners, j);
+    cofactors(j, cof, det);
+    for (int l = 0; l < lanes; ++l) {
+      const double least = result.least_jacobian[l];
+      result.least_jacobian[l] = det.v[l] < least || det.v[l] != det.v[l] ? det.v[l] : least;
+      factor.v[l] = conductivity[l] * table.weight[q] / det.v[l];
+    }
+    for (int a = 0; a < table.nodes; ++a) {
+      const Vec3& g = table.gradient[q][static_cast<std::size_t>(a)];
+      for (int c = 0; c < 3; ++c)
+        for (int l = 0; l < lanes; ++l)
+          b[a][c].v[l] = cof[c][0].v[l] * g[0] + cof[c][1].v[l] * g[1] + cof[c][2].v[l] * g[2];
+    }
+    for (int i = 0, pair = 0; i < table.nodes; ++i)
+      for (int k = i + 1; k < table.nodes; ++k, ++pair)
+        for (int l = 0; l < lanes; ++l)
+          result.link[pair][l] +=
+              factor.v[l] * (b[i][0].v[l] * b[k][0].v[l] + b[i][1].v[l] * b[k][1].v[l] + b[i][2].v[l] * b[k][2].v[l]);
+  }
+}
+
+void eigenvalue_bound(const ElementTable& table, const ConductionBatch& links,
+                      const double (&capacity)[max_element_nodes][lanes], double (&bound)[lanes]) {
+  constexpr int squarings = 7;
+  const int n = table.nodes;
+  // S = C^-1/2 K C^-1/2 has the eigenvalues of C^-1 K.
+  Lane s[max_element_nodes][max_element_nodes] = {}, square[max_element_nodes][max_element_nodes];
+  for (int i = 0, pair = 0; i < n; ++i)
+    for (int k = i + 1; k < n; ++k, ++pair)
+      for (int l = 0; l < lanes; ++l) {
+        s[i][i].v[l] -= links.link[pair][l] / capacity[i][l];
+        s[k][k].v[l] -= links.link[pair][l] / capacity[k][l];
+        s[i][k].v[l] = s[k][i].v[l] = links.link[pair][l] / std::sqrt(capacity[i][l] * capacity[k][l]);
+      }
+  Lane trace[squarings + 1];
+  for (int power = 0;; ++power) {
+    trace[power] = {};
+    for (int i = 0; i < n; ++i)
+      for (int l = 0; l < lanes; ++l) trace[power].v[l] += s[i][i].v[l];
+    if (power == squarings) break;
+    for (int i = 0; i < n; ++i)
+      for (int k = 0; k < n; ++k)
+        for (int l = 0; l < lanes; ++l) s[i][k].v[l] /= trace[power].v[l];
+    for (int i = 0; i < n; ++i)
+      for (int k = i; k < n; ++k) {
+        Lane sum{};
+        for (int m = 0; m < n; ++m)
+          for (int l = 0; l < lanes; ++l) sum.v[l] += s[i][m].v[l] * s[m][k].v[l];
+        square[i][k] = square[k][i] = sum;
+      }
+    for (int i = 0; i < n; ++i)
+      for (int k = 0; k < n; ++k) s[i][k] = square[i][k];
+  }
+  // trace(S^(2^m))^(1/2^m) = t0 sqrt(t1 sqrt(t2 ...)), where t_i is the trace found after i squarings of the scaled
+  // matrix.
+  for (int l = 0; l < lanes; ++l) {
+    double root = trace[squarings].v[l];
+    for (int i = squarings; i-- > 0;) root = trace[i].v[l] * std::sqrt(root);
+    bound[l] = root * (1 + 1e-12);
+  }
+}
+
+void nodal_volumes(ElementKind kind, std::span<const Vec3> corners, std::span<double> volumes) {
+  std::ranges::fill(volumes, 0.0);
+  std::array<double, max_element_nodes> shape{};
+  for (const QuadraturePoint& point : quadrature(kind)) {
+    shape_values(kind, point.xi, shape);
+    const double volume = point.weight * jacobian_determinant(kind, corners, point.xi);
+    for (std::size_t a = 0; a < volumes.size(); ++a) volumes[a] += shape[a] * volume;
+  }
+}
+
+void nodal_areas(std::span<const Vec3> corners, std::span<double> areas) {
+  const ElementKind kind = corners.size() == 3 ? ElementKind::tri3 : ElementKind::quad4;
+  std::ranges::fill(areas, 0.0);
+  std::array<double, max_element_nodes> shape{};
+  std::array<Vec3, max_element_nodes> gradient{};
+  for (const QuadraturePoint& point : quadrature(kind)) {
+    shape_values(kind, point.xi, shape);
+    shape_gradients(kind, point.xi, gradient);
+    Vec3 u{}, v{};
+    for (std::size_t a = 0; a < corners.size(); ++a) {
+      u = u + gradient[a][0] * corners[a];
+      v = v + gradient[a][1] * corners[a];
+    }
+    const double area = point.weight * norm(cross(u, v));
+    for (std::size_t a = 0; a < areas.size(); ++a) areas[a] += shape[a] * area;
+  }
+}
+
+Vec3 centre_gradient(const ElementTable& table, std::span<const Vec3> corners, std::span<const double> values) {
+  Vec3 column[3]{}, slope{};  // dx/dxi_d and dT/dxi_d
+  for (std::size_t a = 0; a < corners.size(); ++a)
+    for (std::size_t d = 0; d < 3; ++d) {
+      column[d] = column[d] + table.centre_gradient[a][d] * corners[a];
+      slope[d] += table.centre_gradient[a][d] * (values[a] - values[0]);
+    }
+  const double det = dot(column[0], cross(column[1], column[2]));
+  const Vec3 sum = slope[0] * cross(column[1], column[2]) + slope[1] * cross(column[2], column[0]) +
+                   slope[2] * cross(column[0], column[1]);
+  return (1 / det) * sum;
+}
+
+}  // namespace tenon::thermal

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "components/thermal/scene_block.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+namespace tenon {
+namespace {
+
+using scene::Diagnostics;
+using scene::Range;
+using scene::Schema;
+using scene::Value;
+
+const std::vector<std::pair<std::string, ThermalStepper>> steppers{{"explicit", ThermalStepper::explicit_euler},
+                                                                   {"backward_euler", ThermalStepper::backward_euler},
+                                                                   {"crank_nicolson", ThermalStepper::crank_nicolson}};
+
+Schema block_schema() {
+  Schema s("Material of a block of the mesh.");
+  s.text("material", "Name of a material.").required();
+  return s;
+}
+
+Schema time_step_schema() {
+  Schema s("Time step of the component.");
+  s.quantity("fixed", "s", "Step; needed by the implicit steppers.", "", Range::positive());
+  s.quantity("scale", "1", "Share of the stable limit that the explicit stepper takes.", "0.9", {0, 1, true, false});
+  return s;
+}
+
+Schema solver_schema() {
+  Schema s("Conjugate gradients of the implicit steppers.");
+  s.quantity("tolerance", "1", "Greatest residual relative to the right-hand side.", "1e-12", {0, 1e-2, true, false});
+  s.integer("max_iterations", "The run stops as unstable if they are not enough.", "2000", {1, 1e9, false, false});
+  return s;
+}
+
+Schema initial_schema() {
+  Schema s("Initial temperature of a block, of a node set, or everywhere; later entries win.");
+  s.text("block", "Block of the mesh.");
+  s.text("node_set", "Node set of the mesh.");
+  s.required_quantity("temperature", "K", "Temperature (at the origin, if there is a gradient).");
+  s.vector("gradient", "K/m", "The temperature grows by gradient . x.", "[0, 0, 0]");
+  s.at_most_one({"block", "node_set"});
+  return s;
+}
+
+Schema prescribed_schema() {
+  Schema s("Temperature that a node set has from the start on.");
+  s.text("node_set", "Node set of the mesh.").required();
+  s.function("temperature", "K", "Temperature over time.").required();
+  return s;
+}
+
+Schema flux_schema() {
+  Schema s("Heat flux into the body.");
+  s.text("side_set", "Side set of the mesh.").required();
+  s.function("flux", "W/m^2", "Flux over time, per current area; positive warms.").required();
+  return s;
+}
+
+Schema convection_schema() {
+  Schema s("Exchange with the surroundings: coefficient times (ambient - T) into the body.");
+  s.text("side_set", "Side set of the mesh.").required();
+  s.required_quantity("coefficient", "W/(m^2 K)", "Heat transfer coefficient.", Range::positive());
+  s.function("ambient", "K", "Temperature of the surroundings over time.").required();
+  return s;
+}
+
+Schema source_schema() {
+  Schema s("Heat source within a block.");
+  s.text("block", "Block of the mesh.").required();
+  s.function("power", "W/m^3", "Power over time, per undeformed volume.").required();
+  return s;
+}
+
+/// Complains unless `entries` has the name that stands under `key`.
+void check_name(const Value& value, const std::string& key, const std::vector<MeshSummary::Entry>& entries,
+                const std::string& what, const MeshSummary& mesh, Diagnostics& diagnostics) {
+  if (!value.has(key)) return;
+  const std::string& name = value.text(key);
+  std::vector<std::string> names;
+  for (const MeshSummary::Entry& entry : entries) names.push_back(entry.name);
+  if (std::ranges::find(names, name) == names.end())
+    diagnostics.error(value.where(key), fmt::format("{}: the mesh {} has no {} '{}'{}", key, mesh.source, what, name,
+                                                    scene::suggestion(name, names)));
+}
+
+using Materials = std::map<std::string, MaterialDescription>;
+
+/// Properties of a material as one block takes them; complaints if it is missing or does not conduct.
+ThermalBlock thermal_block(const std::string& block, const Value& value, const Materials& materials,
+                           Diagnostics& diagnostics) {
+  const std::string& name = value.text("material");
+  const auto found = materials.find(name);
+  if (found == materials.end()) {
+    std::vector<std::string> names;
+    for (const auto& [known, material] : materials) names.push_back(known);
+    diagnostics.error(value.where("material"),
+                      fmt::format("material: there is no material '{}'{}", name, scene::suggestion(name, names)));
+    return {};
+  }
+  const MaterialDescription& material = found->second;
+  if (!material.thermal) {
+    diagnostics.error(value.where("material"),
+                      fmt::format("material: '{}' has no thermal properties; give it a 'thermal' block", name));
+    return {};
+  }
+  return {block, material.density, material.thermal->specific_heat, material.thermal->conductivity,
+          material.thermal->reference_temperature};
+}
+
+std::vector<ThermalBlock> read_blocks(const Value& value, const MeshSummary& mesh, const Materials& materials,
+                                      Diagnostics& diagnostics) {
+  std::map<std::string, Value> own;
+  if (value.has("blocks"))
+    for (const auto& [name, block] : value.entries("blocks")) own.emplace(name, block);
+  std::vector<std::string> names;
+  std::vector<ThermalBlock> blocks;
+  for (const MeshSummary::Entry& entry : mesh.blocks) {
+    names.push_back(entry.name);
+    if (topology(entry.kind).dimension != 3)
+      diagnostics.error(value.where("mesh"),
+                        fmt::format("mesh: block '{}' consists of {}; only solid elements conduct heat", entry.name,
+                                    topology(entry.kind).name));
+    const auto found = own.find(entry.name);
+    if (found != own.end())
+      blocks.push_back(thermal_block(entry.name, found->second, materials, diagnostics));
+    else if (value.has("material"))
+      blocks.push_back(thermal_block(entry.name, value, materials, diagnostics));
+    else
+      diagnostics.error(value.where(),
+                        fmt::format("block '{}' of the mesh has no material; give 'material' for all blocks "
+                                    "or an entry under 'blocks'",
+                                    entry.name));
+  }
+  for (const auto& [name, block] : own)
+    if (std::ranges::find(names, name) == names.end())
+      diagnostics.error(
+          value.where_name("blocks", name),
+          fmt::format("blocks: the mesh {} has no block '{}'{}", mesh.source, name, scene::suggestion(name, names)));
+  return blocks;
+}
+
+void read_initial(const Value& value, const MeshSummary& mesh, ThermalOptions& options, Diagnostics& diagnostics) {
+  if (value.has("initial_temperature")) options.initial.push_back({"", "", value.real("initial_temperature"), {}});
+  if (!value.has("initial_temperatures")) return;
+  for (const Value& item : value.items("initial_temperatures")) {
+    check_name(item, "block", mesh.blocks, "block", mesh, diagnostics);
+    check_name(item, "node_set", mesh.node_sets, "node set", mesh, diagnostics);
+    options.initial.push_back({item.has("block") ? item.text("block") : "",
+                               item.has("node_set") ? item.text("node_set") : "", item.real("temperature"),
+                               item.vector("gradient")});
+  }
+}
+
+void read_conditions(const Value& value, const MeshSummary& mesh, ThermalOptions& options, Diagnostics& diagnostics) {
+  const auto items = [&](const char* key) { return value.has(key) ? value.items(key) : std::vector<Value>{}; };
+  for (const Value& item : items("prescribed_temperatures")) {
+    check_name(item, "node_set", mesh.node_sets, "node set", mesh, diagnostics);
+    options.prescribed.push_back({item.text("node_set"), item.function("temperature")});
+  }
+  for (const Value& item : items("fluxes")) {
+    check_name(item, "side_set", mesh.side_sets, "side set", mesh, diagnostics);
+    options.fluxes.push_back({item.text("side_set"), item.function("flux")});
+  }
+  for (const Value& item : items("convection")) {
+    check_name(item, "side_set", mesh.side_sets, "side set", mesh, diagnostics);
+    options.convection.push_back({item.text("side_set"), item.real("coefficient"), item.function("ambient")});
+  }
+  for (const Value& item : items("sources")) {
+    check_name(item, "block", mesh.blocks, "block", mesh, diagnostics);
+    options.sources.push_back({item.text("block"), item.function("power")});
+  }
+}
+
+void read_stepping(const Value& value, ThermalOptions& options, Diagnostics& diagnostics) {
+  for (const auto& [name, stepper] : steppers)
+    if (value.text("stepper") == name) options.stepper = stepper;
+  if (value.has("time_step")) {
+    const Value step = value.child("time_step");
+    if (step.has("fixed")) options.fixed_step = step.real("fixed");
+    options.step_scale = step.real("scale");
+  }
+  if (value.has("solver")) {
+    const Value solver = value.child("solver");
+    options.tolerance = solver.real("tolerance");
+    options.max_iterations = static_cast<int>(solver.integer("max_iterations"));
+  }
+  if (options.stepper != ThermalStepper::explicit_euler && !options.fixed_step)
+    diagnostics.error(value.where("stepper"),
+                      fmt::format("stepper: '{}' needs a step; give time_step: {{fixed: ...}}", value.text("stepper")));
+}
+
+}  // namespace
+
+Schema thermal_schema() {
+  Schema s(
+      "Heat conduction in solids, explicit or implicit; moves with the body when a displacement is transferred to it.");
+  s.text("mesh", "Name of a mesh.").required();
+  s.text("material", "Material of every block that is not named under `blocks`.");
+  s.named("blocks", block_schema(), "Materials block by block.");
+  s.choice(
+      "stepper", {"explicit", "backward_euler", "crank_nicolson"},
+      "`explicit` is limited by the smallest element; the implicit ones (of first and second order) take any step.",
+      "explicit");
+  s.object("time_step", time_step_schema(), "Time step of the component.");
+  s.object("solver", solver_schema(), "Conjugate gradients of the implicit steppers.");
+  s.quantity("initial_temperature", "K", "Temperature at the start; without it the material's reference temperature.");
+  s.list("initial_temperatures", initial_schema(),
+         "Initial temperatures by block or node set, after `initial_temperature`.");
+  s.list("prescribed_temperatures", prescribed_schema(), "Temperatures that node sets have.");
+  s.list("fluxes", flux_schema(), "Heat fluxes through side sets.");
+  s.list("convection", convection_schema(), "Exchange with the surroundings through side sets.");
+  s.list("sources", source_schema(), "Heat sources within blocks.");
+  return s;
+}
+
+ThermalOptions read_thermal(const Value& value, const MeshSummary& mesh,
+                            const std::map<std::string, MaterialDescription>& materials, Diagnostics& diagnostics) {
+  ThermalOptions options;
+  options.blocks = read_blocks(value, mesh, materials, diagnostics);
+  read_stepping(value, options, diagnostics);
+  read_initial(value, mesh, options, diagnostics);
+  read_conditions(value, mesh, options, diagnostics);
+  return options;
+}
+
+}  // namespace tenon

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The scene block of a heat conduction component.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "components/materials/material.hpp"
+#include "components/thermal/thermal_options.hpp"
+#include "framework/mesh/mesh_data.hpp"
+#include "framework/scene/schema.hpp"
+#include "framework/scene/value.hpp"
+
+namespace tenon {
+
+/// Keys of a component of type `heat_conduction`.
+scene::Schema thermal_schema();
+
+/// Turns a validated block into options; block, set and material names are checked against the mesh and the scene, and
+/// complaints go to `diagnostics`.
+ThermalOptions read_thermal(const scene::Value& value, const MeshSummary& mesh,
+                            const std::map<std::string, MaterialDescription>& materials,
+                            scene::Diagnostics& diagnostics);
+
+}  // namespace tenon

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "components/thermal/surface.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+
+#include "components/thermal/element_conduction.hpp"
+#include "framework/base/error.hpp"
+
+namespace tenon::thermal {
+namespace {
+
+struct Corners {
+  std::array<LocalIndex, max_side_nodes> nodes{};
+  std::size_t count = 0;
+};
+
+Corners corners_of(const Mesh& mesh, const Side& side) {
+  const ElementBlock& block = mesh.blocks[static_cast<std::size_t>(side.block)];
+  const Topology& shape = topology(block.kind);
+  const auto s = static_cast<std::size_t>(side.side);
+  Corners corners;
+  corners.count = static_cast<std::size_t>(shape.side_nodes[s]);
+  for (std::size_t a = 0; a < corners.count; ++a)
+    corners.nodes[a] = block.nodes(side.element)[static_cast<std::size_t>(shape.side[s][a])];
+  return corners;
+}
+
+}  // namespace
+
+Surface::Surface(const Mesh& mesh, const std::string& side_set) : mesh_(mesh), sides_(mesh.find_side_set(side_set)) {
+  if (!sides_)
+    throw Error(ExitCode::usage,
+                fmt::format("heat conduction: the mesh {} has no side set '{}'", mesh.source, side_set));
+  std::vector<LocalIndex> nodes;
+  for (const Side& side : sides_->sides) {
+    const Corners corners = corners_of(mesh, side);
+    nodes.insert(nodes.end(), corners.nodes.begin(),
+                 corners.nodes.begin() + static_cast<std::ptrdiff_t>(corners.count));
+  }
+  std::ranges::sort(nodes);
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  std::erase_if(nodes, [&](LocalIndex n) { return !mesh.owns_node(n); });
+  const auto position = [](const std::vector<LocalIndex>& in, LocalIndex n) {
+    const auto found = std::ranges::lower_bound(in, n);
+    return found != in.end() && *found == n ? static_cast<LocalIndex>(found - in.begin()) : no_index;
+  };
+  for (const LocalIndex n : nodes) rows_.push_back(position(mesh.owned_nodes, n));
+  areas_.assign(rows_.size(), 0.0);
+  for (const Side& side : sides_->sides) {
+    const Corners corners = corners_of(mesh, side);
+    for (std::size_t a = 0; a < max_side_nodes; ++a)
+      entries_.push_back(a < corners.count ? position(nodes, corners.nodes[a]) : no_index);
+  }
+}
+
+void Surface::update(std::span<const Vec3> coordinates) {
+  std::ranges::fill(areas_, 0.0);
+  std::array<Vec3, max_side_nodes> place{};
+  std::array<double, max_side_nodes> area{};
+  std::size_t entry = 0;
+  for (const Side& side : sides_->sides) {
+    const Corners corners = corners_of(mesh_, side);
+    for (std::size_t a = 0; a < corners.count; ++a) place[a] = coordinates[static_cast<std::size_t>(corners.nodes[a])];
+    nodal_areas(std::span(place).first(corners.count), std::span(area).first(corners.count));
+    for (std::size_t a = 0; a < max_side_nodes; ++a, ++entry)
+      if (entries_[entry] != no_index) areas_[static_cast<std::size_t>(entries_[entry])] += area[a];
+  }
+}
+
+}  // namespace tenon::thermal

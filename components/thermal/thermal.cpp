@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Construction, geometry and the choice of the step.
+#include "components/thermal/thermal.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "framework/mesh/shape_functions.hpp"
+
+namespace tenon {
+namespace {
+
+constexpr GlobalId no_element = std::numeric_limits<GlobalId>::max();
+
+std::vector<double> conductivities(const Mesh& mesh, const ThermalOptions& options) {
+  std::vector<double> of_block;
+  for (const ElementBlock& block : mesh.blocks) {
+    const auto found = std::ranges::find(options.blocks, block.name, &ThermalBlock::block);
+    if (found == options.blocks.end())
+      throw Error(ExitCode::usage,
+                  fmt::format("heat conduction: block '{}' of the mesh {} has no material", block.name, mesh.source));
+    if (topology(block.kind).dimension != 3)
+      throw Error(ExitCode::usage, fmt::format("heat conduction: block '{}' of the mesh {} consists of {}; only solid "
+                                               "elements conduct",
+                                               block.name, mesh.source, topology(block.kind).name));
+    of_block.push_back(found->conductivity);
+  }
+  return of_block;
+}
+
+}  // namespace
+
+Thermal::Thermal(std::string name, std::shared_ptr<const Mesh> mesh, ThermalOptions options)
+    : Component(std::move(name)),
+      mesh_(std::move(mesh)),
+      options_(std::move(options)),
+      matrix_(*mesh_, conductivities(*mesh_, options_)),
+      solver_(*mesh_) {
+  if (!is_explicit() && !options_.fixed_step)
+    throw Error(ExitCode::usage,
+                fmt::format("component '{}': an implicit stepper needs time_step.fixed", this->name()));
+  const auto nodes = static_cast<std::size_t>(mesh_->nodes());
+  const std::size_t rows = mesh_->owned_nodes.size();
+  coordinates_ = mesh_->coordinates;
+  displacement_.assign(3 * nodes, 0.0);
+  temperature_.assign(nodes, 0.0);
+  increment_.assign(nodes, 0.0);
+  for (std::vector<double>* v : {&initial_, &rise_, &capacity_, &volume_, &film_, &waiting_heat_, &right_side_,
+                                 &residual_, &diagonal_, &inverse_diagonal_})
+    v->assign(rows, 0.0);
+  find_blocks();
+  make_capacity();
+  make_loads();
+  make_held();
+}
+
+double Thermal::theta() const {
+  switch (options_.stepper) {
+    case ThermalStepper::explicit_euler:
+      return 0;
+    case ThermalStepper::crank_nicolson:
+      return 0.5;
+    case ThermalStepper::backward_euler:
+      break;
+  }
+  return 1;
+}
+
+double Thermal::stable_limit() {
+  refresh_geometry();
+  return stiffest_ > 0 ? 2 / stiffest_ : std::numeric_limits<double>::infinity();
+}
+
+double Thermal::time_step() {
+  refresh_geometry();
+  if (!is_explicit()) return *options_.fixed_step;
+  const double limit = options_.step_scale * stable_limit();
+  return options_.fixed_step ? std::min(*options_.fixed_step, limit) : limit;
+}
+
+StepLimiter Thermal::limiter() {
+  const double dt = time_step();
+  if (options_.fixed_step && dt == *options_.fixed_step) return {dt, "time_step.fixed"};
+  const auto& mine = matrix_.stiffest();
+  const bool has_it = mine.block != no_index && mine.eigenvalue == mesh_->comm.max(mine.eigenvalue);
+  const GlobalId id =
+      has_it ? mesh_->blocks[static_cast<std::size_t>(mine.block)].ids[static_cast<std::size_t>(mine.element)]
+             : no_element;
+  const bool speaks = has_it && id == mesh_->comm.min(std::int64_t{id});
+  const auto root = mesh_->comm.min(std::int64_t{speaks ? mesh_->comm.rank() : mesh_->comm.size()});
+  if (root == mesh_->comm.size()) return {dt, "nothing: there are no elements"};
+  std::string text = speaks ? describe(mine.block, mine.element) : "";
+  mesh_->comm.broadcast(text, static_cast<int>(root));
+  return {dt, text};
+}
+
+void Thermal::refresh_geometry() {
+  if (!displaced_) return;
+  displaced_ = false;
+  const bool moved = mesh_->comm.any(moved_here_);
+  moved_here_ = false;
+  if (!moved) return;
+  mesh_->node_halo.forward(std::span<const double>(displacement_), std::span<double>(displacement_), 3);
+  assemble();
+}
+
+// Collective.
+void Thermal::assemble() {
+  const ScopedTimer timer(*assemble_time_);
+  for (std::size_t n = 0; n < coordinates_.size(); ++n)
+    for (std::size_t c = 0; c < 3; ++c) coordinates_[n][c] = mesh_->coordinates[n][c] + displacement_[3 * n + c];
+  throw_if_inverted(matrix_.assemble(coordinates_));
+  for (FluxLoad& load : flux_loads_) load.surface.update(coordinates_);
+  std::ranges::fill(film_, 0.0);
+  for (ConvectionLoad& load : convection_loads_) {
+    load.surface.update(coordinates_);
+    const auto rows = load.surface.rows();
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      film_[static_cast<std::size_t>(rows[i])] += load.coefficient * load.surface.areas()[i];
+  }
+  assembled_ = true;
+  if (!is_explicit()) return;
+  // The bounds of conduction and convection add up: the greatest eigenvalue of a sum is not above the sum of theirs.
+  double film = 0;
+  for (std::size_t k = 0; k < film_.size(); ++k)
+    if (capacity_[k] > 0) film = std::max(film, film_[k] / capacity_[k]);
+  std::array<double, 2> greatest{matrix_.stiffest().eigenvalue, film};
+  mesh_->comm.max(greatest);
+  stiffest_ = greatest[0] + greatest[1];
+}
+
+void Thermal::throw_if_inverted(const thermal::ConductionMatrix::BadElement& bad) const {
+  if (!mesh_->comm.any(bad.id != no_id)) return;
+  const GlobalId first = mesh_->comm.min(std::int64_t{bad.id == no_id ? no_element : bad.id});
+  std::optional<Error> mine;
+  if (bad.id == first)
+    mine = Error(ExitCode::geometry,
+                 fmt::format("component '{}' at time {:.6g} s: {} has no positive volume everywhere; the displacement "
+                             "that it received has inverted it. A smaller time step or a finer mesh of the moving body "
+                             "may help.",
+                             name(), time(), describe(bad.block, bad.element)));
+  mesh_->comm.throw_if_any(mine);
+}
+
+std::string Thermal::describe(LocalIndex b, LocalIndex element) const {
+  const ElementBlock& block = mesh_->blocks[static_cast<std::size_t>(b)];
+  Vec3 centre{};
+  const auto nodes = block.nodes(element);
+  for (const LocalIndex n : nodes)
+    centre = centre + (1.0 / static_cast<double>(nodes.size())) * coordinates_[static_cast<std::size_t>(n)];
+  return fmt::format("element {} of block {} at ({:.6g}, {:.6g}, {:.6g}) m",
+                     block.labels[static_cast<std::size_t>(element)], block.name, centre[0], centre[1], centre[2]);
+}
+
+}  // namespace tenon

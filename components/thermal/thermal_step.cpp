@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One step: loads, increment of temperature, energy, update.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "components/thermal/thermal.hpp"
+
+namespace tenon {
+
+void Thermal::advance(double dt) {
+  refresh_geometry();
+  gather_loads({time(), time() + dt, theta()}, dt);
+  hold_prescribed(time() + dt);
+  if (is_explicit())
+    solve_explicit();
+  else
+    solve_implicit(dt);
+  {
+    const ScopedTimer timer(*update_time_);
+    book_reactions(dt);
+    apply_increment();
+    show_temperatures();
+    throw_if_not_finite();
+  }
+  if (!assembled_) ++skipped_assemblies_;
+  assembled_ = false;
+  element_steps_ += owned_elements_;
+  last_dt_ = dt;
+  set_time(time() + dt);
+}
+
+// Energy (J) that the step brings to each node, as far as it is known before the new temperature.
+void Thermal::gather_loads(const StepTime& when, double dt) {
+  const ScopedTimer timer(*load_time_);
+  right_side_.swap(waiting_heat_);  // what was received, booked on receipt
+  std::ranges::fill(waiting_heat_, 0.0);
+  for (const FluxLoad& load : flux_loads_) {
+    const double energy = dt * when(load.flux);
+    const auto rows = load.surface.rows();
+    for (std::size_t i = 0; i < rows.size(); ++i) add_load(flux, rows[i], energy * load.surface.areas()[i]);
+  }
+  add_volume_sources(when, dt);
+  add_convection(when, dt);
+  add_conduction(dt);
+}
+
+void Thermal::add_load(Supply kind, LocalIndex row, double energy) {
+  right_side_[static_cast<std::size_t>(row)] += energy;
+  supplied_[kind][static_cast<std::size_t>(row)] += energy;
+}
+
+void Thermal::add_volume_sources(const StepTime& when, double dt) {
+  for (const SourceLoad& load : source_loads_) {
+    const double energy = dt * when(load.power);
+    for (std::size_t i = 0; i < load.rows.size(); ++i) add_load(source, load.rows[i], energy * load.volumes[i]);
+  }
+  if (!options_.source_function) return;
+  for (std::size_t k = 0; k < volume_.size(); ++k) {
+    const Vec3& x = mesh_->coordinates[static_cast<std::size_t>(mesh_->owned_nodes[k])];
+    const double power =
+        (1 - when.theta) * options_.source_function(x, when.start) + when.theta * options_.source_function(x, when.end);
+    add_load(source, static_cast<LocalIndex>(k), dt * power * volume_[k]);
+  }
+}
+
+// At the temperature of the start; book_reactions adds what the increment changes.
+void Thermal::add_convection(const StepTime& when, double dt) {
+  for (const ConvectionLoad& load : convection_loads_) {
+    const double ambient = when(load.ambient);
+    const auto rows = load.surface.rows();
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const LocalIndex n = mesh_->owned_nodes[static_cast<std::size_t>(rows[i])];
+      const double film = load.coefficient * load.surface.areas()[i];
+      add_load(convection, rows[i], dt * film * (ambient - temperature_[static_cast<std::size_t>(n)]));
+    }
+  }
+}
+
+void Thermal::add_conduction(double dt) {
+  matrix_.conducted(temperature_, residual_);
+  for (std::size_t k = 0; k < right_side_.size(); ++k) right_side_[k] += dt * residual_[k];
+}
+
+void Thermal::hold_prescribed(double end) {
+  for (const Held& held : held_) {
+    const auto k = static_cast<std::size_t>(held.row);
+    const double wanted = options_.prescribed[held.function].temperature(end) - initial_[k];
+    increment_[static_cast<std::size_t>(mesh_->owned_nodes[k])] = wanted - rise_[k];
+  }
+}
+
+void Thermal::solve_explicit() {
+  const ScopedTimer timer(*solve_time_);
+  for (std::size_t k = 0; k < right_side_.size(); ++k) {
+    const bool free = inverse_diagonal_[k] > 0;
+    double& increment = increment_[static_cast<std::size_t>(mesh_->owned_nodes[k])];
+    if (free) increment = inverse_diagonal_[k] * right_side_[k];
+    residual_[k] = free ? 0 : right_side_[k] - capacity_[k] * increment;
+  }
+}
+
+void Thermal::solve_implicit(double dt) {
+  const ScopedTimer timer(*solve_time_);
+  const double factor = theta() * dt;
+  for (std::size_t k = 0; k < diagonal_.size(); ++k) {
+    diagonal_[k] = capacity_[k] + factor * (matrix_.diagonal()[k] + film_[k]);
+    if (inverse_diagonal_[k] > 0) inverse_diagonal_[k] = 1 / diagonal_[k];
+  }
+  if (last_dt_ > 0 && last_dt_ != dt)  // the first guess: the change goes on as in the last step
+    for (std::size_t k = 0; k < diagonal_.size(); ++k)
+      if (inverse_diagonal_[k] > 0) increment_[static_cast<std::size_t>(mesh_->owned_nodes[k])] *= dt / last_dt_;
+  last_solve_ = solver_.solve({matrix_, factor, diagonal_, inverse_diagonal_}, right_side_, increment_, residual_,
+                              options_.tolerance, options_.max_iterations);
+  solver_iterations_ += last_solve_.iterations;
+  if (!last_solve_.converged)
+    throw Error(
+        ExitCode::unstable,
+        fmt::format("component '{}' at time {:.6g} s: conjugate gradients stopped after {} iterations at a relative "
+                    "residual of {:.3g}, expected {:.3g}; take a smaller time step or a greater "
+                    "solver.tolerance",
+                    name(), time(), last_solve_.iterations, last_solve_.residual, options_.tolerance));
+}
+
+void Thermal::book_reactions(double dt) {
+  for (const Held& held : held_)
+    supplied_[prescribed][static_cast<std::size_t>(held.row)] -= residual_[static_cast<std::size_t>(held.row)];
+  if (convection_loads_.empty() || is_explicit()) return;
+  const double factor = theta() * dt;
+  for (std::size_t k = 0; k < film_.size(); ++k)
+    if (film_[k] > 0)
+      supplied_[convection][k] -= factor * film_[k] * increment_[static_cast<std::size_t>(mesh_->owned_nodes[k])];
+}
+
+// What the solver left over (the sum of the residual of the free nodes) is spread over them evenly, so that the energy
+// balance closes to round-off whatever the tolerance. Node by node, as residual / capacity, it would stir up the very
+// modes that the implicit step damps. Collective.
+double Thermal::balance_shift() const {
+  ExactSum left;
+  for (std::size_t k = 0; k < residual_.size(); ++k)
+    if (inverse_diagonal_[k] > 0) left.add(residual_[k]);
+  const double all = mesh_->comm.sum(left);
+  return free_capacity_ > 0 ? all / free_capacity_ : 0;
+}
+
+void Thermal::apply_increment() {
+  const double shift = is_explicit() ? 0 : balance_shift();
+  for (std::size_t k = 0; k < rise_.size(); ++k)
+    rise_[k] += increment_[static_cast<std::size_t>(mesh_->owned_nodes[k])] + (inverse_diagonal_[k] > 0 ? shift : 0);
+}
+
+void Thermal::show_temperatures() {
+  for (std::size_t k = 0; k < rise_.size(); ++k)
+    temperature_[static_cast<std::size_t>(mesh_->owned_nodes[k])] = initial_[k] + rise_[k];
+  mesh_->node_halo.forward(std::span<const double>(temperature_), std::span<double>(temperature_));
+}
+
+void Thermal::throw_if_not_finite() const {
+  const auto bad = std::ranges::find_if(
+      mesh_->owned_nodes, [&](LocalIndex n) { return !std::isfinite(temperature_[static_cast<std::size_t>(n)]); });
+  const bool mine = bad != mesh_->owned_nodes.end();
+  if (!mesh_->comm.any(mine)) return;
+  const auto n = mine ? static_cast<std::size_t>(*bad) : 0;
+  const std::int64_t id = mine ? mesh_->node_ids[n] : std::numeric_limits<std::int64_t>::max();
+  std::optional<Error> error;
+  if (id == mesh_->comm.min(id) && mine) {
+    const Vec3& x = coordinates_[n];
+    error = Error(
+        ExitCode::unstable,
+        fmt::format("component '{}' after time {:.6g} s: the temperature of node {} at ({:.6g}, {:.6g}, {:.6g}) m "
+                    "is not a number; look for loads that are too great, or take a smaller time step",
+                    name(), time(), mesh_->node_labels[n], x[0], x[1], x[2]));
+  }
+  mesh_->comm.throw_if_any(error);
+}
+
+}  // namespace tenon
