@@ -22,6 +22,9 @@ struct Range {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
   bool low_open = false, high_open = false;  ///< the bound itself is not allowed
+  bool contains(double value) const {
+    return (low_open ? value > low : value >= low) && (high_open ? value < high : value <= high);
+  }
   static Range positive() { return {0, std::numeric_limits<double>::infinity(), true, false}; }
   static Range not_negative() { return {0, std::numeric_limits<double>::infinity(), false, false}; }
 };

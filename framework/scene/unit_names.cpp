@@ -65,7 +65,7 @@ UnitExample unit_example(const std::string& si_unit) {
 }
 
 std::string with_unit(double value, const std::string& unit) {
-  return unit == "1" || unit.empty() ? fmt::format("{:.6g}", value) : fmt::format("{:.6g} {}", value, unit);
+  return unit == "1" || unit.empty() ? fmt::format("{:.10g}", value) : fmt::format("{:.10g} {}", value, unit);
 }
 
 }  // namespace tenon::scene

@@ -12,11 +12,6 @@
 namespace tenon::scene {
 namespace {
 
-bool inside(const Range& range, double value) {
-  return (range.low_open ? value > range.low : value >= range.low) &&
-         (range.high_open ? value < range.high : value <= range.high);
-}
-
 /// What is expected in the place of a key's value.
 std::string expected(const Key& key) {
   const UnitExample example = unit_example(key.unit);
@@ -122,7 +117,7 @@ std::optional<double> Validator::quantity(const TreeNode& node, const Key& key, 
   }
   try {
     const Quantity value = read_quantity(node.text, key.unit);
-    if (inside(key.range, value.si)) return value.si;
+    if (key.range.contains(value.si)) return value.si;
     complain(node.place, context,
              quoted(node.text) + " is out of range; it must be " + described(key.range, value.conversion, value.unit));
   } catch (const std::invalid_argument& wrong) {
@@ -141,7 +136,7 @@ Validator::Content Validator::integer(const TreeNode& node, const Key& key, cons
   } else if (result.ec != std::errc() || result.ptr != end) {
     complain(node.place, context,
              "found " + node.described() + ", expected a whole number without a unit, such as 100");
-  } else if (!inside(key.range, static_cast<double>(value))) {
+  } else if (!key.range.contains(static_cast<double>(value))) {
     complain(node.place, context, quoted(node.text) + " is out of range; it must be " + described(key.range, {}, ""));
   } else {
     return value;
