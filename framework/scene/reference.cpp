@@ -196,9 +196,8 @@ class Writer {
     }
     text += "\n";
     for (const Schema::Group& group : section.schema->groups())
-      text +=
-          fmt::format(group.one_needed ? "Exactly one of {} must be given.\n\n" : "At most one of {} can be given.\n\n",
-                      code_list(group.keys));
+      text += (group.one_needed ? "Exactly one of " : "At most one of ") + code_list(group.keys) +
+              (group.one_needed ? " must be given.\n\n" : " can be given.\n\n");
     return text;
   }
 
