@@ -19,9 +19,7 @@ bool is_space(char c) {
 
 /// Part of the file as it may be shown in a message.
 std::string shown(std::string_view text) {
-  std::string out;
-  for (const char c : text.substr(0, 40)) out += c >= 0x20 && c < 0x7f ? c : '?';
-  return "'" + out + (text.size() > 40 ? "..." : "") + "'";
+  return "'" + printable(text.substr(0, 40)) + (text.size() > 40 ? "..." : "") + "'";
 }
 
 }  // namespace
@@ -33,7 +31,7 @@ void GmshCursor::refuse_here(const std::string& what) const {
   else
     where = "line " + std::to_string(1 + std::count(contents_.begin(),
                                                     contents_.begin() + static_cast<std::ptrdiff_t>(at_), '\n'));
-  if (!section_.empty()) where += " in $" + section_;
+  if (!section_.empty()) where += " in $" + printable(section_);
   refuse(path_ + ":" + where, what);
 }
 
@@ -73,7 +71,7 @@ void GmshCursor::skip_section(const std::string& name) {
   std::size_t end = at_;
   do {
     const std::size_t found = contents_.find(mark, end);
-    if (found == std::string::npos) refuse_here("there is no " + mark + " (truncated?)");
+    if (found == std::string::npos) refuse_here("there is no " + printable(mark) + " (truncated?)");
     end = found + mark.size();
   } while (end < contents_.size() && !is_space(contents_[end]));  // the name may be the start of a longer one
   at_ = end;
@@ -157,7 +155,7 @@ std::string GmshCursor::quoted_text(const char* what) {
   if (start == contents_.size() || contents_[start] != '"' || close == std::string::npos || close <= start)
     refuse_here(std::string("expected ") + what + " in double quotes");
   at_ = close + 1;
-  return contents_.substr(start + 1, close - start - 1);
+  return printable(std::string_view(contents_).substr(start + 1, close - start - 1));
 }
 
 }  // namespace tenon::mesh_file

@@ -71,6 +71,8 @@ class Parser {
     }
     if (binary != 0 && binary != 1) in_.refuse_here("the file type must be 0 (text) or 1 (binary)");
     if (size != 8) in_.refuse_here("numbers of " + std::to_string(size) + " bytes are not read, only of 8" + convert);
+    if (old_4_ && binary == 1)
+      in_.refuse_here(std::string("MSH version 4.0 is read as text only, as in Gmsh itself") + convert);
     in_.finish_line();
     if (binary == 1) {
       const std::int32_t one = in_.raw_integer32("the number one");
@@ -147,11 +149,11 @@ class Parser {
     for (std::int64_t b = 0; b < blocks; ++b) {
       const int dimension = read_entity().first;
       const int parameters = in_.integer32("0 or 1 for parametric nodes") == 0 ? 0 : dimension;
-      const std::int64_t count = in_.count("number of nodes", old_4_ ? 28 : 32, 4);
+      const std::int64_t count = in_.count("number of nodes", 32, 4);
       if (!old_4_)
         for (std::int64_t n = 0; n < count; ++n) add_node(in_.integer64("a node tag"));
       for (std::int64_t n = 0; n < count; ++n) {
-        if (old_4_) add_node(in_.integer32("a node tag"));
+        if (old_4_) add_node(in_.integer64("a node tag"));
         file_.coordinates.push_back(read_point());
         for (int p = 0; p < parameters; ++p) in_.real("a parameter of a node");
       }
@@ -169,19 +171,18 @@ class Parser {
       const auto entity = read_entity();
       GmshElements& elements = start_elements(in_.integer32("an element type"));
       const std::size_t nodes = static_cast<std::size_t>(elements.nodes_each);
-      const std::int64_t count = in_.count("number of elements", (old_4_ ? 4 : 8) * (1 + nodes), 1 + nodes);
+      const std::int64_t count = in_.count("number of elements", 8 * (1 + nodes), 1 + nodes);
       if (const auto groups = entity_groups_.find(entity); groups != entity_groups_.end())
         set_groups(elements, groups->second);
       for (std::int64_t e = 0; e < count; ++e) {
-        elements.labels.push_back(read_tag());
-        for (std::size_t n = 0; n < nodes; ++n) elements.nodes.push_back(read_tag());
+        elements.labels.push_back(in_.integer64("an element tag"));
+        for (std::size_t n = 0; n < nodes; ++n) elements.nodes.push_back(in_.integer64("a node tag"));
       }
       found += count;
     }
     if (found != total)
       in_.refuse_here("found " + std::to_string(found) + " elements, expected " + std::to_string(total));
   }
-  std::int64_t read_tag() { return old_4_ ? in_.integer32("a tag") : in_.integer64("a tag"); }
 
   /// Appends an empty group of elements, or refuses the type.
   GmshElements& start_elements(int type) {

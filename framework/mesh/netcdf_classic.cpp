@@ -2,11 +2,11 @@
 // Validates the header of a netCDF classic file before the library sees it.
 #include "framework/mesh/netcdf_classic.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <fstream>
-#include <limits>
-#include <optional>
+#include <set>
 #include <vector>
 
 #include "framework/mesh/read_support.hpp"
@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::uint64_t longest_name = 256;
 constexpr std::uint64_t most_dimensions = 1024;
+constexpr std::uint64_t beyond = std::uint64_t{1} << 62;  ///< more bytes than any file has
 enum Tag : std::uint32_t { absent = 0, dimension_list = 10, variable_list = 11, attribute_list = 12 };
 
 struct Dimension {
@@ -23,11 +24,18 @@ struct Dimension {
   std::uint64_t size;  ///< 0 for the record dimension
 };
 
+struct Variable {
+  std::string name;
+  std::uint64_t bytes;  ///< of all values, or of one record
+  std::uint64_t begin;  ///< place in the file
+  bool record;
+};
+
 class Header {
  public:
   explicit Header(const std::string& path) : path_(path), size_(size_of(path)), in_(path, std::ios::binary) {}
 
-  std::set<std::string> validate() {
+  void validate() {
     const std::string magic = bytes(4);
     version_ = static_cast<unsigned char>(magic[3]);
     if (magic.compare(0, 3, "CDF") != 0 || (version_ != 1 && version_ != 2 && version_ != 5))
@@ -35,7 +43,8 @@ class Header {
     records_ = count();
     read_dimensions();
     skip_attributes();
-    return read_variables();
+    read_variables();
+    check_extents();
   }
 
  private:
@@ -99,7 +108,7 @@ class Header {
       Dimension d{name(), 0};
       d.size = count();
       if (!names.insert(d.name).second) corrupt("two dimensions named '" + d.name + "'");
-      if (d.size > std::numeric_limits<std::uint64_t>::max() / 2) corrupt("impossible size of '" + d.name + "'");
+      if (d.size > beyond) corrupt("impossible size of '" + d.name + "'");
       if (d.size == 0 && record) corrupt("two record dimensions");
       record = record || d.size == 0;
       dimensions_.push_back(std::move(d));
@@ -116,39 +125,60 @@ class Header {
     }
   }
 
-  std::set<std::string> read_variables() {
-    std::set<std::string> names, truncated;
+  void read_variables() {
+    std::set<std::string> names;
     for (std::uint64_t left = list(variable_list, "variables"); left > 0; --left) {
-      const std::string variable = name();
-      if (!names.insert(variable).second) corrupt("two variables named '" + variable + "'");
-      if (!variable_within_file(variable)) truncated.insert(variable);
+      Variable variable{name(), 0, 0, false};
+      if (!names.insert(variable.name).second) corrupt("two variables named '" + variable.name + "'");
+      read_variable(variable);
+      variables_.push_back(std::move(variable));
     }
-    return truncated;
   }
 
-  /// Reads the rest of one variable's entry. A record variable counts as outside when it has a record.
-  bool variable_within_file(const std::string& variable) {
+  void read_variable(Variable& variable) {
     const std::uint64_t rank = count();
-    if (rank > most_dimensions) corrupt("impossible rank of '" + variable + "'");
-    std::optional<std::uint64_t> values = 1;
-    bool record = false;
+    if (rank > most_dimensions) corrupt("impossible rank of '" + variable.name + "'");
+    variable.bytes = 1;
     for (std::uint64_t d = 0; d < rank; ++d) {
       const std::uint64_t index = count();
-      if (index >= dimensions_.size()) corrupt("'" + variable + "' has a dimension that does not exist");
+      if (index >= dimensions_.size()) corrupt("'" + variable.name + "' has a dimension that does not exist");
       const std::uint64_t extent = dimensions_[static_cast<std::size_t>(index)].size;
-      if (extent == 0 && d != 0) corrupt("the record dimension of '" + variable + "' is not the first");
-      record = record || extent == 0;
-      if (!values || (extent != 0 && *values > size_ / extent))
-        values.reset();
-      else if (extent != 0)
-        *values *= extent;
+      if (extent == 0 && d != 0) corrupt("the record dimension of '" + variable.name + "' is not the first");
+      if (extent == 0)
+        variable.record = true;
+      else
+        variable.bytes = times(variable.bytes, extent);
     }
     skip_attributes();
-    const std::uint64_t width = type_width();
+    variable.bytes = times(variable.bytes, type_width());
     count();  // the size, which the specification calls redundant
-    const std::uint64_t begin = big_endian(version_ == 1 ? 4 : 8);
-    if (record) return records_ == 0;
-    return values && begin <= size_ && *values <= (size_ - begin) / width;
+    variable.begin = big_endian(version_ == 1 ? 4 : 8);
+  }
+
+  /// Product, or a number greater than any file.
+  static std::uint64_t times(std::uint64_t a, std::uint64_t b) { return a > beyond / b ? beyond : a * b; }
+
+  /// Values of record variables come record by record, those of one record each padded to four bytes unless they are
+  /// alone.
+  void check_extents() const {
+    const auto records =
+        std::count_if(variables_.begin(), variables_.end(), [](const Variable& v) { return v.record; });
+    std::uint64_t record_size = 0;
+    for (const Variable& v : variables_)
+      if (v.record) record_size = std::min(beyond, record_size + (records > 1 ? (v.bytes + 3) / 4 * 4 : v.bytes));
+    // A writer that streams does not know the number of records.
+    const std::uint64_t streaming = version_ == 5 ? ~std::uint64_t{0} : std::uint64_t{0xffffffff};
+    for (const Variable& v : variables_) {
+      std::uint64_t before_last = 0;
+      if (v.record) {
+        if (records_ == 0 || records_ == streaming) continue;
+        before_last = times(records_ - 1, std::max<std::uint64_t>(record_size, 1));
+      }
+      const bool fits = v.begin <= size_ && before_last <= size_ - v.begin && v.bytes <= size_ - v.begin - before_last;
+      if (!fits)
+        refuse(path_, "is truncated: it has " + std::to_string(size_) + " bytes, and the values of '" + v.name +
+                          "' do not all fit");
+    }
   }
 
   std::string path_;
@@ -157,12 +187,13 @@ class Header {
   int version_ = 1;
   std::uint64_t records_ = 0;
   std::vector<Dimension> dimensions_;
+  std::vector<Variable> variables_;
 };
 
 }  // namespace
 
-std::set<std::string> truncated_variables(const std::string& path) {
-  return Header(path).validate();
+void validate_classic(const std::string& path) {
+  Header(path).validate();
 }
 
 }  // namespace tenon::mesh_file

@@ -22,7 +22,7 @@ std::string trimmed(const char* text, std::size_t length) {
   std::string out(text, length);
   out.resize(std::min(out.find('\0'), out.size()));
   while (!out.empty() && (out.back() == ' ' || out.back() == '\t')) out.pop_back();
-  return out;
+  return printable(out);
 }
 
 }  // namespace
@@ -34,7 +34,7 @@ bool is_hdf5(const std::string& start) {
 NetcdfFile::NetcdfFile(const std::string& path) : path_(path), bytes_(size_of(path)) {
   const std::string start = start_of(path, 8);
   classic_ = !is_hdf5(start);
-  if (classic_) truncated_ = truncated_variables(path);
+  if (classic_) validate_classic(path);
   // An absolute path, because the library would take one that looks like an URL for a server.
   const std::string absolute = std::filesystem::absolute(path).string();
   require(nc_open(absolute.c_str(), NC_NOWRITE, &id_), "cannot be opened");
@@ -67,8 +67,6 @@ NetcdfFile::Variable NetcdfFile::inquire(const std::string& variable) const {
   int rank = 0;
   if (nc_inq_varid(id_, variable.c_str(), &v.id) != NC_NOERR)
     refuse(path_, "has no variable '" + variable + "'; expected an Exodus II mesh");
-  if (truncated_.contains(variable))
-    refuse(path_, "is truncated: the values of '" + variable + "' are not all in the file");
   require(nc_inq_vartype(id_, v.id, &v.type), "variable '" + variable + "' cannot be examined");
   require(nc_inq_varndims(id_, v.id, &rank), "variable '" + variable + "' cannot be examined");
   if (rank < 0 || rank > 2) refuse(path_, "variable '" + variable + "' has an impossible rank");

@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -44,7 +43,6 @@ class NetcdfFile {
   std::string path_;
   std::uint64_t bytes_ = 0;
   bool classic_ = false;
-  std::set<std::string> truncated_;
   int id_ = -1;
 };
 

@@ -50,6 +50,30 @@ std::string contents_of(const std::string& path) {
   return start_of(path, static_cast<std::size_t>(size_of(path)));
 }
 
+std::string printable(std::string_view text) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size();) {
+    const auto c = static_cast<unsigned char>(text[i]);
+    // Length of the sequence that this byte begins; 0xc0, 0xc1 and 0xf5 up never occur in UTF-8.
+    const std::size_t length = c >= 0x20 && c < 0x7f   ? 1
+                               : c >= 0xc2 && c < 0xe0 ? 2
+                               : c >= 0xe0 && c < 0xf0 ? 3
+                               : c >= 0xf0 && c < 0xf5 ? 4
+                                                       : 0;
+    bool valid = length > 0 && length <= text.size() - i;
+    for (std::size_t k = 1; valid && k < length; ++k) valid = (static_cast<unsigned char>(text[i + k]) & 0xc0) == 0x80;
+    if (valid && length > 2) {
+      // Overlong forms, surrogates and numbers beyond U+10FFFF.
+      const auto next = static_cast<unsigned char>(text[i + 1]);
+      valid = !(c == 0xe0 && next < 0xa0) && !(c == 0xed && next >= 0xa0) && !(c == 0xf0 && next < 0x90) &&
+              !(c == 0xf4 && next >= 0x90);
+    }
+    out += valid ? text.substr(i, length) : "_";
+    i += valid ? length : 1;
+  }
+  return out;
+}
+
 MeshData within_memory(const std::string& path, const std::function<MeshData()>& read) {
   try {
     return read();

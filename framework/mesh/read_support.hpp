@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <string_view>
 
 #include "framework/mesh/mesh_data.hpp"
 
@@ -18,6 +19,9 @@ std::uint64_t size_of(const std::string& path);
 /// The first `count` bytes, or fewer if the file is shorter. Refuses as size_of does.
 std::string start_of(const std::string& path, std::size_t count);
 std::string contents_of(const std::string& path);
+
+/// Text of a file that may be shown and stored: control characters and what is not UTF-8 become '_'.
+std::string printable(std::string_view text);
 
 /// Runs `read`; running out of memory, which only a corrupt file or a small computer does, becomes a refusal.
 MeshData within_memory(const std::string& path, const std::function<MeshData()>& read);
