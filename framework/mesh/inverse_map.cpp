@@ -30,40 +30,44 @@ double solve(const std::array<Vec3, 3>& j, const Vec3& r, Vec3& d) {
   return determinant;
 }
 
-/// The map of a hex8 seen from the point: zero where x(xi) = point.
-struct HexResidual {
+/// Residual that is round-off: a few roundings of the largest distance from the point, m.
+double round_off(const Trilinear& t) {
+  double sum = 0;
+  for (const Vec3* v : {&t.c, &t.x, &t.y, &t.z}) sum += greatest(*v);
+  return 2 * epsilon * sum;
+}
+
+/// The map of a hex8 or wedge6 seen from the point: zero where x(xi) = point.
+struct TrilinearResidual {
   Trilinear map;
-  double noise;  ///< residual that is round-off, m
-  HexResidual(std::span<const Vec3> corners, const Vec3& point) : map(corners, point), noise(0) {
-    // Products of corner differences with |xi| near 1: a few roundings of the largest distance from the point.
-    for (const Vec3* v : {&map.c, &map.x, &map.y, &map.z}) noise += greatest(*v);
-    noise *= 2 * epsilon;
-  }
+  double noise;
+  explicit TrilinearResidual(const Trilinear& seen_from_point) : map(seen_from_point), noise(round_off(map)) {}
   Vec3 value(const Vec3& xi) const { return map.value(xi); }
   std::array<Vec3, 3> jacobian(const Vec3& xi) const { return map.jacobian(xi); }
 };
 
-/// The same for the other solids, through their shape functions.
-struct GeneralResidual {
-  ElementKind kind;
-  std::array<Vec3, max_element_nodes> corner;
-  std::size_t nodes;
-  double noise = 0;
-  GeneralResidual(ElementKind k, std::span<const Vec3> corners, const Vec3& point)
-      : kind(k), nodes(static_cast<std::size_t>(topology(k).nodes)) {
-    for (std::size_t a = 0; a < nodes; ++a) {
-      corner[a] = corners[a] - point;
-      noise = std::max(noise, 4 * epsilon * greatest(corner[a]));
-    }
+/// The same of a pyramid5: c + x xi + y eta + z zeta + xy xi eta / (1 - zeta).
+struct PyramidResidual {
+  Trilinear map;
+  double noise;
+  PyramidResidual(std::span<const Vec3> corners, const Vec3& point) {
+    std::array<Vec3, 4> p;
+    for (std::size_t a = 0; a < 4; ++a) p[a] = corners[a] - point;
+    map.c = 0.25 * ((p[0] + p[2]) + (p[1] + p[3]));
+    map.x = 0.25 * ((p[1] - p[0]) + (p[2] - p[3]));
+    map.y = 0.25 * ((p[3] - p[0]) + (p[2] - p[1]));
+    map.xy = 0.25 * ((p[0] - p[1]) + (p[2] - p[3]));
+    map.z = (corners[4] - point) - map.c;
+    noise = round_off(map);
   }
-  Vec3 value(const Vec3& xi) const { return map_to_space(kind, std::span(corner.data(), nodes), xi); }
+  Vec3 value(const Vec3& xi) const {
+    const double height = 1 - xi[2], term = height == 0 ? 0.0 : xi[0] * xi[1] / height;
+    return map.c + xi[0] * map.x + xi[1] * map.y + xi[2] * map.z + term * map.xy;
+  }
   std::array<Vec3, 3> jacobian(const Vec3& xi) const {
-    std::array<Vec3, max_element_nodes> g;
-    shape_gradients(kind, xi, g);
-    std::array<Vec3, 3> j{};
-    for (std::size_t a = 0; a < nodes; ++a)
-      for (std::size_t i = 0; i < 3; ++i) j[i] = j[i] + g[a][i] * corner[a];
-    return j;
+    const double height = 1 - xi[2];
+    const double a = height == 0 ? 0.0 : xi[1] / height, b = height == 0 ? 0.0 : xi[0] / height;
+    return {map.x + a * map.xy, map.y + b * map.xy, map.z + (a * b) * map.xy};
   }
 };
 
@@ -144,9 +148,16 @@ InverseMap tet_inverse(std::span<const Vec3> corners, const Vec3& point) {
 }  // namespace
 
 InverseMap inverse_map(ElementKind kind, std::span<const Vec3> corners, const Vec3& point) {
-  if (kind == ElementKind::tet4) return tet_inverse(corners, point);
-  if (kind == ElementKind::hex8) return search(kind, HexResidual(corners, point));
-  return search(kind, GeneralResidual(kind, corners, point));
+  switch (kind) {
+    case ElementKind::hex8:
+      return search(kind, TrilinearResidual(Trilinear::hex(corners, point)));
+    case ElementKind::wedge6:
+      return search(kind, TrilinearResidual(Trilinear::wedge(corners, point)));
+    case ElementKind::pyramid5:
+      return search(kind, PyramidResidual(corners, point));
+    default:
+      return tet_inverse(corners, point);
+  }
 }
 
 double overshoot(ElementKind kind, const Vec3& xi) {

@@ -227,7 +227,7 @@ double jacobian_determinant(ElementKind kind, std::span<const Vec3> corners, con
 }
 
 double element_measure(ElementKind kind, std::span<const Vec3> corners) {
-  if (kind == ElementKind::hex8) return Trilinear(corners, corners[0]).volume();
+  if (kind == ElementKind::hex8) return Trilinear::hex(corners, corners[0]).volume();
   if (kind == ElementKind::tet4)
     return triple(corners[1] - corners[0], corners[2] - corners[0], corners[3] - corners[0]) / 6;
   if (kind == ElementKind::tri3) return 0.5 * norm(cross(corners[1] - corners[0], corners[2] - corners[0]));
