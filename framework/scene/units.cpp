@@ -5,6 +5,7 @@
 #include <udunits2.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -34,38 +35,69 @@ bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
 
-/// The UTF-8 signs that are operators or exponents in a unit, not part of a name.
+/// Signs of multiplication that are no part of a name.
 std::size_t sign_length(std::string_view text) {
-  for (const std::string_view sign : {"·", "×", "²", "³", "¹", "⁰", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹", "⁻", "⁺"})
+  for (const std::string_view sign : {"·", "×"})
     if (text.substr(0, sign.size()) == sign) return sign.size();
   return 0;
+}
+
+/// "m⁻²" as "m^-2", which is all that UDUNITS reads.
+std::string with_plain_exponents(std::string_view unit) {
+  static constexpr std::array<std::string_view, 12> raised{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹", "⁻", "⁺"};
+  std::string text;
+  bool in_exponent = false;
+  for (std::size_t i = 0; i < unit.size();) {
+    const auto sign =
+        std::find_if(raised.begin(), raised.end(), [&](std::string_view r) { return unit.substr(i, r.size()) == r; });
+    const bool is_raised = sign != raised.end();
+    if (is_raised && !in_exponent) text += '^';
+    text += is_raised ? "0123456789-+"[sign - raised.begin()] : unit[i];
+    i += is_raised ? sign->size() : 1;
+    in_exponent = is_raised;
+  }
+  return text;
+}
+
+/// Whether the digits at `begin` are an exponent: "m2", "m-2", "m^2", "m^-2", "m**2", "(m s)2". UDUNITS reads "m -2"
+/// and "m^2.5" as products with a number.
+bool is_exponent(std::string_view unit, std::size_t begin) {
+  const auto after_operator = [&](std::size_t end) {
+    return (end >= 1 && unit[end - 1] == '^') || (end >= 2 && unit[end - 1] == '*' && unit[end - 2] == '*');
+  };
+  if (begin == 0) return false;
+  const char before = unit[begin - 1];
+  if (is_letter(before) || before == ')' || after_operator(begin)) return true;
+  if (before != '-' && before != '+') return false;
+  return after_operator(begin - 1) || (before == '-' && begin >= 2 && is_letter(unit[begin - 2]));
 }
 
 /// The names in a unit: "W" "m" "K" of "W/(m K)". Nothing if the text holds what no unit does (UDUNITS also reads
 /// factors, origins and logarithms, which would turn a slip of the pen into another number).
 std::optional<std::vector<std::string>> names_in(std::string_view unit) {
   std::vector<std::string> names;
+  int open = 0;
   for (std::size_t i = 0; i < unit.size();) {
+    const std::size_t begin = i;
     if (const std::size_t length = sign_length(unit.substr(i)); length > 0) {
       i += length;
     } else if (is_letter(unit[i])) {
-      const std::size_t begin = i;
       while (i < unit.size() && is_letter(unit[i]) && sign_length(unit.substr(i)) == 0) ++i;
       names.emplace_back(unit.substr(begin, i - begin));
-      while (i < unit.size() && is_digit(unit[i])) ++i;  // "cm3"
     } else if (is_digit(unit[i])) {
-      const std::size_t begin = i;
       while (i < unit.size() && is_digit(unit[i])) ++i;
-      const bool exponent = begin > 0 && (unit[begin - 1] == '^' || unit[begin - 1] == '-' || unit[begin - 1] == '*' ||
-                                          unit[begin - 1] == '+' || unit[begin - 1] == ')');
-      if (i - begin > 2 || (!exponent && unit.substr(begin, i - begin) != "1")) return std::nullopt;
+      const bool one = unit.substr(begin, i - begin) == "1" &&
+                       (begin == 0 || std::string_view(" (/*").find(unit[begin - 1]) != std::string_view::npos);
+      if (!one && (i - begin > 2 || !is_exponent(unit, begin))) return std::nullopt;
     } else if (std::string_view(" ()/*^.+-").find(unit[i]) != std::string_view::npos) {
+      open += unit[i] == '(' ? 1 : unit[i] == ')' ? -1 : 0;
+      if (open < 0) return std::nullopt;
       ++i;
     } else {
       return std::nullopt;
     }
   }
-  return names;
+  return open == 0 ? std::optional(names) : std::nullopt;
 }
 
 /// The units database, read once. UDUNITS' parser works on variables of its own that all systems share, which is why
@@ -112,7 +144,7 @@ class UnitSystem {
     if (!linear) {
       if ((to == "K" || difference) && (unit == "C" || unit == "F"))
         throw std::invalid_argument(quoted(unit) + " is the " + (unit == "C" ? "coulomb" : "farad") +
-                                    ", did you mean 'deg" + unit + "'?");
+                                    " (did you mean 'deg" + unit + "'?)");
       const std::string kind = kind_of(*source);
       throw std::invalid_argument(kind.empty() ? "its unit does not fit" : "it is " + kind);
     }
@@ -122,13 +154,14 @@ class UnitSystem {
   }
 
   /// Parses a unit of the user, naming the part that is wrong.
-  UnitPointer parse_checked(const std::string& unit, const std::string& to) const {
+  UnitPointer parse_checked(const std::string& written, const std::string& to) const {
+    const std::string unit = with_plain_exponents(written);
     const auto names = unit.size() <= 100 ? names_in(unit) : std::nullopt;
-    if (!names) throw std::invalid_argument(quoted(unit) + " is not a unit");
+    if (!names) throw std::invalid_argument(quoted(written) + " is not a unit");
     for (const std::string& name : *names)
       if (!is_unit(name)) throw std::invalid_argument("there is no unit " + quoted(name) + offer(name, to));
     UnitPointer parsed = parse(unit);
-    if (!parsed) throw std::invalid_argument(quoted(unit) + " is not a unit");
+    if (!parsed) throw std::invalid_argument(quoted(written) + " is not a unit");
     return parsed;
   }
 

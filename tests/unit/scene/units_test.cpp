@@ -46,7 +46,7 @@ TEST(Units, ProductsAndPowersInSeveralSpellings) {
   for (const char* text :
        {"386 W/(m K)", "386 W/m/K", "386 W/(m·K)", "386 W m-1 K-1", "386 W*m^-1*K^-1", "386 W/(m degC)"})
     EXPECT_EQ(parse_quantity(text, "W/(m K)"), 386.0) << text;
-  for (const char* text : {"2 W/m^2", "2 W/m2", "2 W/m²", "2 W/m**2", "2 W m⁻²"})
+  for (const char* text : {"2 W/m^2", "2 W/m2", "2 W/m²", "2 W/m**2", "2 W m⁻²", "2 W·m^-2", "2 W/(m)²", "2 W m**-2"})
     EXPECT_EQ(parse_quantity(text, "W/m^2"), 2.0) << text;
   EXPECT_EQ(parse_quantity("1.7e-5 1/K", "1/K"), 1.7e-5);
   EXPECT_EQ(parse_quantity("3 N m", "J"), 3.0);
@@ -96,8 +96,9 @@ TEST(Units, UnknownUnitsAreNamedWithTheNearest) {
 }
 
 TEST(Units, RefusesWhatUdunitsWouldTurnIntoAnotherNumber) {
-  for (const char* text :
-       {"5 5 m", "5 m @ 3", "5 m^2.5", "5 m from 3", "5 lg(re 1 m)", "5 2", "5 m:3", "5 m^999", "5 m)", "5 ()"})
+  for (const char* text : {"5 5 m",   "5 m @ 3", "5 m from 3", "5 lg(re 1 m)", "5 2",     "5 m:3",   "5 m^999", "5 m)",
+                           "5 (m",    "5 ()",    "5 m -2",     "5 m +2",       "5 m--2",  "5 m^1.1", "5 m 2",   "5 2 m",
+                           "5 m^2^3", "5 m*2",   "5 m/",       "5 m.5",        "5 (m)-2", "5 m*-2"})
     EXPECT_NE(refusal(text, "m"), "accepted") << text;
 }
 
