@@ -45,6 +45,7 @@ class CheckpointWriter {
   void integer(const std::string& name, std::int64_t value);
   void text(const std::string& name, const std::string& value);
   /// Dataset of global_count x components; `values` holds `components` per id, in the order of the ids of `order`.
+  /// Without any ids (global_count 0) nothing is written, and nothing is looked for when it is read.
   void array(const std::string& name, const GlobalOrder& order, std::span<const double> values, int components);
   /// Flushes to the disk and renames. Throws Error(file), on all ranks, if anything failed; then the old file stands.
   void finish();

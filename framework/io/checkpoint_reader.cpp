@@ -84,7 +84,8 @@ std::string CheckpointReader::text(const std::string& name) const {
       fmt::format("dataset '{}' is not a text", name));
   std::string value(H5Tget_size(type), '\0');
   if (impl_->comm.rank() != 0) H5Sselect_none(space);
-  const herr_t status = H5Dread(dataset, type, space, space, collective_transfer(), value.data());
+  const Hdf5Handle transfer = collective_transfer();
+  const herr_t status = H5Dread(dataset, type, space, space, transfer, value.data());
   impl_->expect(status >= 0, fmt::format("text '{}' cannot be read", name));
   value.pop_back();  // the closing zero
   impl_->comm.broadcast(value);
@@ -95,6 +96,7 @@ void CheckpointReader::array(const std::string& name, const GlobalOrder& order, 
                              int components) const {
   const Hdf5Quiet quiet;
   const Impl& my = *impl_;
+  if (order.global_count_ == 0) return;
   const Hdf5Handle dataset = my.open_dataset(name);
   const Hdf5Handle type(H5Dget_type(dataset), H5Tclose), space(H5Dget_space(dataset), H5Sclose);
   hsize_t shape[2] = {0, 0};
@@ -110,8 +112,8 @@ void CheckpointReader::array(const std::string& name, const GlobalOrder& order, 
   std::vector<double> slab(static_cast<std::size_t>(order.slab_size_) * shape[1]);
   const auto first = static_cast<hsize_t>(order.slab_first_);
   const SlabSpaces spaces = slab_spaces(dataset, first, static_cast<hsize_t>(order.slab_size_), shape[1]);
-  const herr_t status =
-      H5Dread(dataset, H5T_NATIVE_DOUBLE, spaces.memory, spaces.file, collective_transfer(), slab.data());
+  const Hdf5Handle transfer = collective_transfer();
+  const herr_t status = H5Dread(dataset, H5T_NATIVE_DOUBLE, spaces.memory, spaces.file, transfer, slab.data());
   my.expect(status >= 0, fmt::format("dataset '{}' cannot be read", name));
 
   const std::int64_t sum = my.comm.sum(static_cast<std::int64_t>(checkpoint_format::checksum(first * shape[1], slab)));

@@ -20,11 +20,14 @@ struct CheckpointWriter::Impl {
   std::string path, part;
   Hdf5Handle file;
   std::vector<double> slab;
+  std::vector<std::string> datasets;
   bool finished = false;
 
   void create();
   void attribute(const std::string& name, hid_t type, const void* value);
   Hdf5Handle create_dataset(const std::string& name, hid_t type, hid_t space);
+  void reserve(haddr_t first, std::uint64_t bytes) const;
+  void abandon();
   /// Collective vote on one HDF5 call that every rank has made.
   void vote(bool ok, const std::string& what) const;
 };
@@ -70,11 +73,30 @@ Hdf5Handle CheckpointWriter::Impl::create_dataset(const std::string& name, hid_t
   H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER);
   Hdf5Handle dataset(H5Dcreate2(file, name.c_str(), type, space, links, creation, H5P_DEFAULT), H5Dclose);
   vote(dataset.valid(), name);
+  datasets.push_back(name);
   return dataset;
 }
 
+// Takes the room on the disk before HDF5 writes: a full disk is then found here, with the system's reason and on one
+// rank, and not in the middle of a collective write, after which HDF5 can hardly be closed.
+void CheckpointWriter::Impl::reserve(haddr_t first, std::uint64_t bytes) const {
+  comm.vote_on_root([&] {
+    if (first != HADDR_UNDEF && bytes > 0) PosixFile(part, O_WRONLY).reserve(first, bytes);
+  });
+}
+
+// HDF5 that cannot close a file crashes when the program ends. So the datasets are deleted first, which leaves next to
+// nothing to write, and the room of the file is given back to a full disk.
+void CheckpointWriter::Impl::abandon() {
+  if (!file.valid()) return;
+  for (const std::string& name : datasets) H5Ldelete(file, name.c_str(), H5P_DEFAULT);
+  if (comm.rank() == 0 && ::truncate(part.c_str(), 0) != 0) ::unlink(part.c_str());
+  comm.barrier();
+  file.close();
+}
+
 CheckpointWriter::CheckpointWriter(const Communicator& comm, std::string path)
-    : impl_(new Impl{comm, path, path + ".part", {}, {}}) {
+    : impl_(new Impl{comm, path, path + ".part", {}, {}, {}}) {
   impl_->create();
   integer("format", checkpoint_format::version);
   text("kind", checkpoint_format::kind);
@@ -83,7 +105,7 @@ CheckpointWriter::CheckpointWriter(const Communicator& comm, std::string path)
 CheckpointWriter::~CheckpointWriter() {
   if (impl_->finished) return;
   const Hdf5Quiet quiet;
-  impl_->file.close();
+  impl_->abandon();
   if (impl_->comm.rank() == 0) ::unlink(impl_->part.c_str());
 }
 
@@ -110,8 +132,10 @@ void CheckpointWriter::text(const std::string& name, const std::string& value) {
   H5Tset_size(type, of_root.size() + 1);
   const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose);
   const Hdf5Handle dataset = impl_->create_dataset(name, type, space);
+  impl_->reserve(H5Dget_offset(dataset), of_root.size() + 1);
   if (impl_->comm.rank() != 0) H5Sselect_none(space);
-  const herr_t status = H5Dwrite(dataset, type, space, space, collective_transfer(), of_root.c_str());
+  const Hdf5Handle transfer = collective_transfer();
+  const herr_t status = H5Dwrite(dataset, type, space, space, transfer, of_root.c_str());
   impl_->vote(status >= 0, name);
 }
 
@@ -126,16 +150,18 @@ void CheckpointWriter::array(const std::string& name, const GlobalOrder& order, 
       throw Error(ExitCode::file, fmt::format("{}: dataset {}: {} values for {} ids of {} components", impl_->path,
                                               name, values.size(), order.given_, components));
   });
+  if (order.global_count_ == 0) return;  // h5diff calls an empty dataset "not comparable"
   impl_->slab.resize(static_cast<std::size_t>(order.slab_size_) * static_cast<std::size_t>(components));
   order.to_slab(values, impl_->slab, components);
 
   const hsize_t shape[2] = {static_cast<hsize_t>(order.global_count_), static_cast<hsize_t>(components)};
   const Hdf5Handle space(H5Screate_simple(2, shape, nullptr), H5Sclose);
   const Hdf5Handle dataset = impl_->create_dataset(name, H5T_IEEE_F64LE, space);
+  impl_->reserve(H5Dget_offset(dataset), shape[0] * shape[1] * sizeof(double));
   const auto first = static_cast<hsize_t>(order.slab_first_);
   const SlabSpaces slab = slab_spaces(dataset, first, static_cast<hsize_t>(order.slab_size_), shape[1]);
-  const herr_t status =
-      H5Dwrite(dataset, H5T_NATIVE_DOUBLE, slab.memory, slab.file, collective_transfer(), impl_->slab.data());
+  const Hdf5Handle transfer = collective_transfer();
+  const herr_t status = H5Dwrite(dataset, H5T_NATIVE_DOUBLE, slab.memory, slab.file, transfer, impl_->slab.data());
   impl_->vote(status >= 0, "dataset " + name);
 
   const std::int64_t sum =

@@ -63,6 +63,13 @@ void PosixFile::write_at(const void* from, std::size_t bytes, std::uint64_t offs
   }
 }
 
+void PosixFile::reserve(std::uint64_t offset, std::uint64_t bytes) const {
+  int result = 0;
+  do result = ::fallocate(descriptor_, 0, static_cast<off_t>(offset), static_cast<off_t>(bytes));
+  while (result != 0 && errno == EINTR);
+  if (result != 0 && errno != EOPNOTSUPP && errno != ENOSYS) fail("cannot be written");
+}
+
 void PosixFile::sync() const {
   // A file system that cannot sync this kind of file (EINVAL, EROFS on folders) has nothing to make safe.
   if (::fsync(descriptor_) != 0 && errno != EINVAL && errno != EROFS) fail("cannot be brought to the disk");

@@ -22,6 +22,8 @@ class PosixFile {
   /// Exactly `bytes` bytes from `offset`.
   void read_at(void* to, std::size_t bytes, std::uint64_t offset) const;
   void write_at(const void* from, std::size_t bytes, std::uint64_t offset) const;
+  /// Takes the room for these bytes on the disk, where the file system can do so without writing.
+  void reserve(std::uint64_t offset, std::uint64_t bytes) const;
   /// Waits until the disk has it.
   void sync() const;
 

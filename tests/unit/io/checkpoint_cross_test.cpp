@@ -33,6 +33,7 @@ TEST_P(CheckpointFrom, ReadsBitForBit) {
   std::vector<double> stress(elements.size() * 6);
   file.array("mechanics/stress", element_order, stress, 6);
   EXPECT_TRUE(testing::same_bits(stress, testing::samples(elements, 6, 2)));
+  file.array("thermal/nothing", GlobalOrder(comm, {}, 0), {}, 2);
 }
 
 TEST_P(CheckpointFrom, IsTheSameFileByteForByte) {

@@ -80,9 +80,8 @@ TEST(Checkpoint, SaysWhatItHas) {
   const std::string path = testing::fresh_folder(comm, "io_has") + "/a.h5";
   testing::write_sample(comm, path);
   const CheckpointReader file(comm, path);
-  for (const char* name : {"time", "step", "scene", "mechanics/stress", "thermal/nothing"})
-    EXPECT_TRUE(file.has(name)) << name;
-  for (const char* name : {"tim", "mechanics/eqps", "contact/gap/normal", "scene/time"})
+  for (const char* name : {"time", "step", "scene", "mechanics/stress"}) EXPECT_TRUE(file.has(name)) << name;
+  for (const char* name : {"tim", "mechanics/eqps", "contact/gap/normal", "scene/time", "thermal/nothing"})
     EXPECT_FALSE(file.has(name)) << name;
 }
 
@@ -172,7 +171,7 @@ TEST(Checkpoint, FullDiskIsAnErrorOnAllRanksAndTheOldFileStands) {
   });
   ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
   std::signal(SIGXFSZ, handler);
-  EXPECT_TRUE(contains(said, path) && contains(said, "cannot be written")) << said;
+  EXPECT_EQ(said, path + ".part: cannot be written: File too large");
   EXPECT_EQ(CheckpointReader(comm, path).scalar("time"), 1.0 / 3.0);
 }
 
