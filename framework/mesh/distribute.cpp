@@ -128,7 +128,8 @@ struct Arrived {
 };
 
 /// Collective. Sends block `b` of rank 0's mesh, and releases it there.
-Arrived send_block(const Communicator& comm, MeshData& mesh, std::size_t b, const Owners& owners, ElementBlock& block) {
+Arrived send_block(const Communicator& comm, MeshData& mesh, std::size_t b, const Owners& owners,
+                   const std::string& name, ElementBlock& block) {
   Sending sending;
   std::vector<GlobalId> ids;
   std::vector<int> element_owners;
@@ -143,7 +144,7 @@ Arrived send_block(const Communicator& comm, MeshData& mesh, std::size_t b, cons
     sending = receivers(data, owner, owners.nodes);
     marks = side_marks(mesh, block.first_id, data.size());
   }
-  const ExchangePlan plan = ExchangePlan::to_ranks(comm, sending.rank, sending.element, "mesh elements");
+  const ExchangePlan plan = ExchangePlan::to_ranks(comm, sending.rank, sending.element, name);
   const auto nodes = static_cast<std::size_t>(topology(block.kind).nodes);
   const auto count = static_cast<std::size_t>(plan.received());
   Arrived arrived;
@@ -183,12 +184,13 @@ std::vector<GlobalId> nodes_without_elements(const MeshData& mesh) {
 }
 
 /// Collective. Pulls the nodes that `mesh.node_ids` names, and their sets, from rank 0.
-void pull_nodes(const Communicator& comm, const MeshData& data, const Owners& owners, Mesh& mesh) {
+void pull_nodes(const Communicator& comm, const MeshData& data, const Owners& owners, const std::string& name,
+                Mesh& mesh) {
   const std::size_t count = mesh.node_ids.size();
   const std::vector<int> root(count, 0);
   std::vector<LocalIndex> index(mesh.node_ids.begin(), mesh.node_ids.end()), into(count);
   std::iota(into.begin(), into.end(), 0);
-  const ExchangePlan plan = ExchangePlan::from_owners(comm, root, index, into, "mesh nodes");
+  const ExchangePlan plan = ExchangePlan::from_owners(comm, root, index, into, name);
   mesh.node_labels.resize(count);
   mesh.node_owners.resize(count);
   mesh.coordinates.resize(count);
@@ -229,7 +231,7 @@ void settle(Mesh& mesh, std::vector<Arrived>&& arrived) {
 }
 
 /// Collective. Where the ghosts come from: each owner says at which place of its array a node stands.
-void connect_halo(const Communicator& comm, Mesh& mesh) {
+void connect_halo(const Communicator& comm, const std::string& name, Mesh& mesh) {
   std::vector<int> owner;
   std::vector<GlobalId> id;
   std::vector<LocalIndex> into;
@@ -243,7 +245,7 @@ void connect_halo(const Communicator& comm, Mesh& mesh) {
     id.push_back(mesh.node_ids[i]);
     into.push_back(n);
   }
-  const ExchangePlan question = ExchangePlan::to_ranks(comm, owner, "mesh ghosts");
+  const ExchangePlan question = ExchangePlan::to_ranks(comm, owner, name + " set-up");
   std::vector<GlobalId> asked(static_cast<std::size_t>(question.received()));
   question.forward(std::span<const GlobalId>(id), std::span(asked));
   std::vector<LocalIndex> answer;
@@ -253,7 +255,7 @@ void connect_halo(const Communicator& comm, Mesh& mesh) {
   }
   std::vector<LocalIndex> index(id.size());
   question.reverse(std::span<const LocalIndex>(answer), std::span(index));
-  mesh.node_halo = ExchangePlan::from_owners(comm, owner, index, into, "mesh halo");
+  mesh.node_halo = ExchangePlan::from_owners(comm, owner, index, into, name + " halo");
 }
 
 /// Names and sizes, the same on every rank.
@@ -286,12 +288,12 @@ std::shared_ptr<const Mesh> distribute(const Communicator& comm, MeshData&& mesh
   std::vector<GlobalId> orphans = nodes_without_elements(data);
   std::vector<Arrived> arrived;
   for (std::size_t b = 0; b < result->blocks.size(); ++b)
-    arrived.push_back(send_block(comm, data, b, owners, result->blocks[b]));
+    arrived.push_back(send_block(comm, data, b, owners, options.name + " set-up", result->blocks[b]));
   result->node_ids = needed_nodes(arrived, std::move(orphans));
-  pull_nodes(comm, data, owners, *result);
+  pull_nodes(comm, data, owners, options.name + " set-up", *result);
   data = {};
   settle(*result, std::move(arrived));
-  connect_halo(comm, *result);
+  connect_halo(comm, options.name, *result);
   return result;
 }
 

@@ -155,9 +155,13 @@ InverseMap inverse_map(ElementKind kind, std::span<const Vec3> corners, const Ve
       return search(kind, TrilinearResidual(Trilinear::wedge(corners, point)));
     case ElementKind::pyramid5:
       return search(kind, PyramidResidual(corners, point));
-    default:
+    case ElementKind::tet4:
       return tet_inverse(corners, point);
+    case ElementKind::quad4:
+    case ElementKind::tri3:
+      break;
   }
+  return {element_centre(kind), false};  // a surface has no inverse
 }
 
 double overshoot(ElementKind kind, const Vec3& xi) {

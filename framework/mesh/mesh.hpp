@@ -93,6 +93,7 @@ using ElementCost = std::function<double(const std::string& block, ElementKind k
 struct DistributeOptions {
   ElementCost cost;  ///< empty means equal
   PartitionMethod method = PartitionMethod::automatic;
+  std::string name = "mesh";  ///< of the exchanges in the report: "mesh halo", "mesh set-up"
 };
 
 /// Collective. Distributes `mesh` (which only rank 0 need hold; it is released as it goes) over the ranks of `comm`.

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The nearest point of a solid element: the point itself if it is inside, else the nearest over the element's sides.
+// The nearest point of an element: the point itself if it is inside a solid, else the nearest over the element's sides.
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "framework/base/box.hpp"
 #include "framework/mesh/shape_functions.hpp"
 
 namespace tenon {
@@ -21,7 +22,11 @@ std::array<Vec3, max_element_nodes> reference_corners(ElementKind kind) {
       return {{{0, 0, -1}, {1, 0, -1}, {0, 1, -1}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}}};
     case ElementKind::pyramid5:
       return {{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {0, 0, 1}}};
-    default:
+    case ElementKind::quad4:
+      return {{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}};
+    case ElementKind::tri3:
+      return {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}};
+    case ElementKind::hex8:
       break;
   }
   return {{{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}}};
@@ -158,10 +163,16 @@ NearestPoint nearest_point(ElementKind kind, std::span<const Vec3> corners, cons
   const Topology& t = topology(kind);
   const std::array<Vec3, max_element_nodes> reference = reference_corners(kind);
   NearestPoint best{element_centre(kind), std::numeric_limits<double>::infinity()};
-  for (std::size_t s = 0; s < static_cast<std::size_t>(t.sides); ++s) {
+  const std::size_t sides = t.dimension == 2 ? 1 : static_cast<std::size_t>(t.sides);
+  for (std::size_t s = 0; s < sides; ++s) {
     std::array<Vec3, max_side_nodes> corner{};
+    Box box;
     const auto nodes = static_cast<std::size_t>(t.side_nodes[s]);
-    for (std::size_t i = 0; i < nodes; ++i) corner[i] = corners[static_cast<std::size_t>(t.side[s][i])] - point;
+    for (std::size_t i = 0; i < nodes; ++i) {
+      corner[i] = corners[static_cast<std::size_t>(t.side[s][i])] - point;
+      box.add(corner[i]);
+    }
+    if (box.distance({0, 0, 0}) > best.distance) continue;  // a side lies within the hull of its corners
     const std::array<double, max_side_nodes> weight = on_side(corner, t.side_nodes[s]);
     Vec3 away{}, xi{};
     for (std::size_t i = 0; i < nodes; ++i) {

@@ -38,11 +38,12 @@ struct InverseMap {
   Vec3 xi{};               ///< where the point is; outside the reference element if the point is outside
   bool converged = false;  ///< Newton reached round-off
 };
-/// Safeguarded Newton. Solids only. Deterministic: the same input gives the same bits.
+/// Safeguarded Newton from the centre, with restarts should it end on a folded branch of the map. Solids only (never
+/// converges on surfaces). Deterministic: the same input gives the same bits.
 InverseMap inverse_map(ElementKind kind, std::span<const Vec3> corners, const Vec3& point);
 /// How far xi lies outside the reference element (0 inside), in units of half its width.
 double overshoot(ElementKind kind, const Vec3& xi);
-/// The nearest point of the element (solid) to `point`: local coordinates within it, and the distance (m).
+/// The nearest point of the element to `point`: local coordinates within it, and the distance (m; 0 within a solid).
 struct NearestPoint {
   Vec3 xi{};
   double distance = 0;

@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <map>
 #include <set>
 
+#include "framework/mesh/dual_graph.hpp"
 #include "framework/mesh/mesh.hpp"
 #include "tests/support/test_communicator.hpp"
 #include "tests/unit/mesh/mesh_samples.hpp"
@@ -305,6 +307,61 @@ TEST_F(Distribute, RefusesOnAllRanksTogether) {
   if (comm.size() > 1) {
     EXPECT_EQ(attempt(generate(BoxShape{}), [](const std::string&, ElementKind) { return 0.0; }), ExitCode::usage);
   }
+}
+
+TEST(DualGraph, JoinsElementsThatShareAFaceOrSurfacesThatShareAnEdge) {
+  const PartitionGraph graph = dual_graph(mixed_mesh(), {}, true);
+  std::set<std::pair<GlobalId, GlobalId>> edges;
+  for (std::size_t e = 0; e < graph.ids.size(); ++e)
+    for (LocalIndex k = graph.offsets[e]; k < graph.offsets[e + 1]; ++k)
+      edges.insert({graph.ids[e], graph.adjacency[static_cast<std::size_t>(k)]});
+  // 0 brick, 1 roof, 2 ramp, 3 cover on the ramp, 4 and 5 chips with a common face.
+  const std::set<std::pair<GlobalId, GlobalId>> expected{{0, 1}, {1, 0}, {0, 2}, {2, 0},
+                                                         {2, 3}, {3, 2}, {4, 5}, {5, 4}};
+  EXPECT_EQ(edges, expected);
+
+  PlateShape shape;
+  shape.elements_x = 3, shape.elements_y = 2;
+  const PartitionGraph plate = dual_graph(generate(shape), {}, true);
+  EXPECT_EQ(plate.adjacency.size(), 2u * (2 * 2 + 3));
+  BoxShape box;
+  box.elements = {3, 4, 5};
+  EXPECT_EQ(dual_graph(generate(box), {}, true).adjacency.size(), 2u * (2 * 4 * 5 + 3 * 3 * 5 + 3 * 4 * 4));
+  EXPECT_TRUE(dual_graph(generate(box), {}, false).adjacency.empty());
+}
+
+TEST(DualGraph, JoinsAllWhereManySurfacesMeetAtAnEdge) {
+  MeshData fan;  // five triangles around one edge
+  fan.coordinates = {{0, 0, 0}, {0, 0, 1}};
+  fan.blocks = {{"fan", 1, ElementKind::tri3, {}, {}}};
+  for (int i = 0; i < 5; ++i) {
+    fan.coordinates.push_back({std::cos(i), std::sin(i), 0});
+    for (const GlobalId n : {0, 1, 2 + i}) fan.blocks[0].connectivity.push_back(n);
+    fan.blocks[0].labels.push_back(i);
+  }
+  const PartitionGraph graph = dual_graph(fan, {}, true);
+  EXPECT_EQ(graph.adjacency, (std::vector<GlobalId>{1, 0, 2, 1, 3, 2, 4, 3}));
+}
+
+TEST(NodeOwners, AreAmongTheOwnersAroundAndEvenlyChosen) {
+  BoxShape shape;
+  shape.elements = {2, 60, 60};
+  const MeshData mesh = generate(shape);
+  std::vector<int> owner(mesh.elements());
+  for (std::size_t e = 0; e < owner.size(); ++e) owner[e] = static_cast<int>(e % 2);  // cut along the plane x = 0.5
+  const std::vector<int> nodes = node_owners(mesh, owner);
+  std::int64_t first = 0, cut = 0;
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    const double x = mesh.coordinates[n][0];
+    if (x == 0.5) {
+      ++cut;
+      first += nodes[n] == 0 ? 1 : 0;
+    } else {
+      EXPECT_EQ(nodes[n], x < 0.5 ? 0 : 1);
+    }
+  }
+  EXPECT_EQ(cut, 61 * 61);
+  EXPECT_NEAR(static_cast<double>(first) / static_cast<double>(cut), 0.5, 0.03);
 }
 
 TEST(MeshSummary, IsTheSameOnAllRanks) {

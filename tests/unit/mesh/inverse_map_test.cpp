@@ -201,6 +201,37 @@ TEST(NearestPoint, OfACubeIsKnown) {
   }
 }
 
+TEST(NearestPoint, OfSurfaces) {
+  const std::vector<Vec3> quad{{0, 0, 1}, {2, 0, 1}, {2, 4, 1}, {0, 4, 1}};
+  NearestPoint found = nearest_point(ElementKind::quad4, quad, {1.5, 1, 4});
+  EXPECT_LT(norm(found.xi - Vec3{0.5, -0.5, 0}), 1e-14);
+  EXPECT_NEAR(found.distance, 3, 1e-14);
+  found = nearest_point(ElementKind::quad4, quad, {5, 8, 1});
+  EXPECT_LT(norm(found.xi - Vec3{1, 1, 0}), 1e-14);
+  EXPECT_NEAR(found.distance, 5, 1e-14);
+  const std::vector<Vec3> triangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  found = nearest_point(ElementKind::tri3, triangle, {1, 1, -2});
+  EXPECT_LT(norm(found.xi - Vec3{0.5, 0.5, 0}), 1e-14);
+  EXPECT_NEAR(found.distance, std::sqrt(4.5), 1e-14);
+  EXPECT_FALSE(inverse_map(ElementKind::tri3, triangle, {0.1, 0.1, 0}).converged);
+}
+
+TEST(NearestPoint, OfDegenerateElementsIsFinite) {
+  Random random(20);
+  for (const ElementKind kind : all_kinds) {
+    const std::vector<Vec3> point(reference_element(kind).size(), Vec3{1, 2, 3});
+    EXPECT_NEAR(nearest_point(kind, point, {1, 2, 5}).distance, 2, 1e-15);
+    std::vector<Vec3> line = reference_element(kind);
+    for (Vec3& p : line) p = {p[0], 0, 0};
+    const double low = kind == ElementKind::tet4 || kind == ElementKind::wedge6 || kind == ElementKind::tri3 ? 0 : -1;
+    for (int trial = 0; trial < 50; ++trial) {
+      const Vec3 target = random.vector(-3, 3);
+      const Vec3 foot{std::clamp(target[0], low, 1.0), 0, 0};
+      EXPECT_NEAR(nearest_point(kind, line, target).distance, norm(target - foot), 1e-12) << topology(kind).name;
+    }
+  }
+}
+
 TEST(NearestPoint, AtCornersAndEdgesOfEveryKind) {
   // Straight out from a corner or the middle of an edge of the reference element, along the mean of the outward
   // normals there, the nearest point is that corner or middle.
