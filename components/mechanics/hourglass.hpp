@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Resistance to the hourglass modes of the one-point hexahedron. A form is a type; more can be added beside these.
+#pragma once
+
+#include <concepts>
+
+#include "components/mechanics/hex8_mean_gradient.hpp"
+
+namespace tenon {
+
+/// One vector for each of the hourglass modes eta zeta, zeta xi, xi eta, xi eta zeta.
+template <typename R>
+struct HourglassVectors {
+  Vector<R> eta_zeta, zeta_xi, xi_eta, xi_eta_zeta;
+};
+
+/// Rates gamma_alpha . v of [FB81], eq. 65: the part of the velocity that no linear field explains, so any linear field
+/// gives zero on any shape. Here gamma . v = h . v - L (h . x). m/s, times 8.
+template <typename R>
+TENON_KERNEL HourglassVectors<R> hourglass_rates(const HexModes<R>& x, const HexModes<R>& v, const Tensor<R>& l) {
+  return {v.eta_zeta - l * x.eta_zeta, v.zeta_xi - l * x.zeta_xi, v.xi_eta - l * x.xi_eta,
+          v.xi_eta_zeta - l * x.xi_eta_zeta};
+}
+
+template <typename R>
+TENON_KERNEL R product(const HourglassVectors<R>& a, const HourglassVectors<R>& b) {
+  return (dot(a.eta_zeta, b.eta_zeta) + dot(a.zeta_xi, b.zeta_xi)) +
+         (dot(a.xi_eta, b.xi_eta) + dot(a.xi_eta_zeta, b.xi_eta_zeta));
+}
+
+/// What a form may need to know of the element.
+template <typename R>
+struct ElementScale {
+  R mass;       ///< kg
+  R volume;     ///< m^3
+  R trace_g;    ///< sum of b_I . b_I, m^4
+  R wave_rate;  ///< c/L: dilatational wave speed over length of the element, 1/s
+  R modulus;    ///< lambda + 2 mu, Pa
+};
+
+/// L^2 = 3 V^2/(2 tr G): the harmonic mean of the squared edges of a box, so the shortest edge rules; h for a cube.
+/// c/L = sqrt((lambda + 2 mu)/rho)/L = sqrt(2 (lambda + 2 mu) tr G/(3 m V)).
+template <typename R>
+TENON_KERNEL ElementScale<R> element_scale(const R& mass, const R& volume, const R& trace_g, double modulus) {
+  return {mass, volume, trace_g, square_root((2.0 / 3.0 * modulus) * trace_g / (mass * volume)), broadcast<R>(modulus)};
+}
+
+/// Generalised forces Q_alpha, and the energy that they took up in the step, J.
+template <typename R>
+struct HourglassResult {
+  HourglassVectors<R> force;
+  R energy;
+};
+
+/// A form of hourglass control. `state_size` values per element are kept and rotate with it. `step` gives the forces
+/// at the end of a step of length dt (0: as they are, nothing changes). `damping` is the greatest eigenvalue of
+/// M^-1 C, 1/s, that it adds to the hourglass modes.
+template <typename H>
+concept HourglassForm = requires(const H form, const HourglassVectors<double>& rates, const ElementScale<double>& scale,
+                                 Batch<(H::state_size > 0 ? H::state_size : 1)>& state,
+                                 const Tensor<double>& rotation) {
+  { H::state_size } -> std::convertible_to<int>;
+  form.template rotate<double>(rotation, state, 0);
+  { form.template step<double>(rates, scale, state, 0, 0.0) } -> std::same_as<HourglassResult<double>>;
+  { form.damping(scale) } -> std::same_as<double>;
+};
+
+template <typename R>
+TENON_KERNEL R load_as(const double* from) {
+  if constexpr (sizeof(R) == sizeof(double))
+    return *from;
+  else
+    return load(from);
+}
+TENON_KERNEL void store_as(double* to, double value) {
+  *to = value;
+}
+TENON_KERNEL void store_as(double* to, const Pack& value) {
+  store(to, value);
+}
+
+/// No control: for tests, and for motions that have no hourglass part.
+struct NoHourglass {
+  static constexpr int state_size = 0;
+  template <typename R>
+  TENON_KERNEL void rotate(const Tensor<R>&, Batch<1>&, int) const {}
+  template <typename R>
+  TENON_KERNEL HourglassResult<R> step(const HourglassVectors<R>&, const ElementScale<R>&, Batch<1>&, int,
+                                       double) const {
+    const Vector<R> zero{R{}, R{}, R{}};
+    return {{zero, zero, zero, zero}, R{}};
+  }
+  template <typename R>
+  TENON_KERNEL R damping(const ElementScale<R>&) const {
+    return R{};
+  }
+};
+
+/// [FB81] viscous form: Q = coefficient m c/(4 L) gamma . v, the size of LS-DYNA's type 1 on a cube (rho c V^(2/3)/4).
+/// It has no memory, so it cannot store what plastic flow should have dissipated: right for plasticity.
+struct ViscousHourglass {
+  static constexpr int state_size = 0;
+  double coefficient = 0.1;
+
+  template <typename R>
+  TENON_KERNEL void rotate(const Tensor<R>&, Batch<1>&, int) const {}
+  template <typename R>
+  TENON_KERNEL HourglassResult<R> step(const HourglassVectors<R>& rate, const ElementScale<R>& s, Batch<1>&, int,
+                                       double dt) const {
+    const R c = (0.25 * coefficient) * s.mass * s.wave_rate;
+    return {{c * rate.eta_zeta, c * rate.zeta_xi, c * rate.xi_eta, c * rate.xi_eta_zeta},
+            dt * (c * product(rate, rate))};
+  }
+  /// 8 nodes of mass m/8, |gamma|^2 = 8: 64 c/m.
+  template <typename R>
+  TENON_KERNEL R damping(const ElementScale<R>& s) const {
+    return (16.0 * coefficient) * s.wave_rate;
+  }
+};
+
+/// [FB81] stiffness form: dQ/dt = coefficient (lambda + 2 mu) tr G/(8 V) gamma . v, in a frame that rotates with the
+/// element. For elastic bodies; under plastic flow it is far too stiff.
+struct StiffnessHourglass {
+  static constexpr int state_size = 12;
+  double coefficient = 0.05;
+
+  template <typename R>
+  TENON_KERNEL static HourglassVectors<R> read(const Batch<12>& state, int lane) {
+    const auto vector = [&](int i) {
+      return Vector<R>{load_as<R>(state[3 * i] + lane), load_as<R>(state[3 * i + 1] + lane),
+                       load_as<R>(state[3 * i + 2] + lane)};
+    };
+    return {vector(0), vector(1), vector(2), vector(3)};
+  }
+  template <typename R>
+  TENON_KERNEL static void write(const HourglassVectors<R>& q, Batch<12>& state, int lane) {
+    const auto vector = [&](int i, const Vector<R>& a) {
+      store_as(state[3 * i] + lane, a.x), store_as(state[3 * i + 1] + lane, a.y),
+          store_as(state[3 * i + 2] + lane, a.z);
+    };
+    vector(0, q.eta_zeta), vector(1, q.zeta_xi), vector(2, q.xi_eta), vector(3, q.xi_eta_zeta);
+  }
+  template <typename R>
+  TENON_KERNEL void rotate(const Tensor<R>& r, Batch<12>& state, int lane) const {
+    const HourglassVectors<R> q = read<R>(state, lane);
+    write<R>({r * q.eta_zeta, r * q.zeta_xi, r * q.xi_eta, r * q.xi_eta_zeta}, state, lane);
+  }
+  template <typename R>
+  TENON_KERNEL HourglassResult<R> step(const HourglassVectors<R>& rate, const ElementScale<R>& s, Batch<12>& state,
+                                       int lane, double dt) const {
+    const HourglassVectors<R> old = read<R>(state, lane);
+    const R k = (0.125 * coefficient * dt) * s.modulus * s.trace_g / s.volume;
+    const HourglassVectors<R> now{old.eta_zeta + k * rate.eta_zeta, old.zeta_xi + k * rate.zeta_xi,
+                                  old.xi_eta + k * rate.xi_eta, old.xi_eta_zeta + k * rate.xi_eta_zeta};
+    write<R>(now, state, lane);
+    return {now, (0.5 * dt) * (product(old, rate) + product(now, rate))};
+  }
+  template <typename R>
+  TENON_KERNEL R damping(const ElementScale<R>&) const {
+    return R{};
+  }
+};
+
+}  // namespace tenon

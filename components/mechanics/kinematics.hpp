@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Strain increment and rotation of a step, objective at any size of the rotation.
+#pragma once
+
+#include "components/mechanics/hex8_mean_gradient.hpp"
+
+namespace tenon {
+
+/// Strain increment dt D (tensor shear) and rotation R of a step, both from the velocity gradient at mid-step.
+template <typename R>
+struct StepDeformation {
+  SymmetricTensor<R> strain_increment;
+  Tensor<R> rotation;
+};
+
+/// [HW80]: with the gradient taken in the geometry half way between start and end of the step, a rigid rotation by any
+/// angle theta < 180 degrees gives D = 0 and W = 2 tan(theta/2)/dt, and R = (1 - dt W/2)^-1 (1 + dt W/2) is the exact
+/// rotation. In closed form R = 1 + (w + w w/2)/(1 + |r|^2/4), w = dt W, r its axial vector.
+template <typename R>
+TENON_KERNEL StepDeformation<R> step_deformation(const Tensor<R>& l, double dt) {
+  const double half = 0.5 * dt;
+  StepDeformation<R> step;
+  step.strain_increment = {
+      dt * l.x.x, dt * l.y.y, dt * l.z.z, half * (l.x.y + l.y.x), half * (l.y.z + l.z.y), half * (l.z.x + l.x.z)};
+  const Vector<R> r{half * (l.z.y - l.y.z), half * (l.x.z - l.z.x), half * (l.y.x - l.x.y)};
+  const R squared = dot(r, r);
+  const R k = 1.0 / (1.0 + 0.25 * squared), h = 0.5 * k;
+  const Vector<R> kr = k * r, hr = h * r;
+  const R diagonal = 1.0 - h * squared;
+  const R xy = hr.x * r.y, yz = hr.y * r.z, zx = hr.z * r.x;
+  step.rotation = {{diagonal + hr.x * r.x, xy - kr.z, zx + kr.y},
+                   {xy + kr.z, diagonal + hr.y * r.y, yz - kr.x},
+                   {zx - kr.y, yz + kr.x, diagonal + hr.z * r.z}};
+  return step;
+}
+
+/// Modes of the geometry half a step back: x - dt/2 v.
+template <typename R>
+TENON_KERNEL HexModes<R> mid_step(const HexModes<R>& x, const HexModes<R>& v, double dt) {
+  const R back = broadcast<R>(0.5 * dt);
+  return {x.xi - back * v.xi,
+          x.eta - back * v.eta,
+          x.zeta - back * v.zeta,
+          x.eta_zeta - back * v.eta_zeta,
+          x.zeta_xi - back * v.zeta_xi,
+          x.xi_eta - back * v.xi_eta,
+          x.xi_eta_zeta - back * v.xi_eta_zeta};
+}
+
+}  // namespace tenon

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "components/mechanics/mechanics.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tenon {
+
+Mechanics::Mechanics(std::string name, std::shared_ptr<const Mesh> mesh, MechanicsOptions options)
+    : Component(std::move(name)),
+      mesh_(std::move(mesh)),
+      options_(std::move(options)),
+      conditions_(*mesh_, options_.motions, options_.walls),
+      nodes_(mesh_->coordinates) {
+  make_blocks();
+  sum_masses();
+  set_temperatures();
+}
+
+void Mechanics::initialize() {
+  phases_ = {&phase("forces"), &phase("update"), &phase("halo"), &phase("reduce")};
+  if (!loaded_) set_velocities();
+  compute_forces(0);
+  choose_step();
+}
+
+void Mechanics::advance(double dt) {
+  kick(dt);
+  refresh_ghosts();
+  drift(dt);
+  compute_forces(dt);
+  set_time(time() + dt);
+  started_ = true;
+  ++steps_;
+  work_done_ += owned_elements_;
+  choose_step();
+}
+
+// v* = v- - kick f/m on every node; ghosts are replaced by what their owners find. Conditions correct v* and the work.
+void Mechanics::kick(double dt) {
+  const ScopedTimer timer(*phases_.update);
+  const double kick = 0.5 * (previous_dt_ + dt);
+  const std::span<Vec3> velocity = nodes_.velocity();
+  for (std::size_t n = 0; n < nodes_.size(); ++n) {
+    const double* f = nodes_.force[n].v;
+    const double scale = kick * nodes_.inverse_mass[n];
+    Vec3& v = velocity[n];
+    const Vec3 kicked{v[0] - scale * f[0], v[1] - scale * f[1], v[2] - scale * f[2]};
+    const double power = f[0] * (v[0] + kicked[0]) + f[1] * (v[1] + kicked[1]) + f[2] * (v[2] + kicked[2]);
+    nodes_.internal_work[n] += 0.5 * kick * power;
+    v = kicked;
+  }
+  conditions_.apply(nodes_, time(), kick, dt);
+}
+
+void Mechanics::refresh_ghosts() {
+  if (mesh_->comm.size() == 1) return;
+  const ScopedTimer timer(*phases_.halo);
+  const std::span<Vec3> velocity = nodes_.velocity();
+  mesh_->node_halo.forward<Vec3>(velocity, velocity);
+}
+
+void Mechanics::drift(double dt) {
+  const ScopedTimer timer(*phases_.update);
+  const std::span<Vec3> position = nodes_.position();
+  const std::span<const Vec3> velocity = nodes_.velocity();
+  for (std::size_t n = 0; n < nodes_.size(); ++n) position[n] = position[n] + dt * velocity[n];
+}
+
+// Advances the elements over the step of length dt that ends at the present positions; forces belong to these.
+void Mechanics::compute_forces(double dt) {
+  const ScopedTimer timer(*phases_.forces);
+  std::fill(nodes_.force.begin(), nodes_.force.end(), ForceRow{});
+  local_least_ = {std::numeric_limits<double>::infinity(), no_index};
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    const BlockStep found = blocks_[b]->advance(nodes_.arrays(), dt);
+    if (found.step < local_least_.step) local_least_ = found, local_least_block_ = b;
+  }
+  if (dt > 0) previous_dt_ = dt;
+}
+
+// Codes of bad elements are negative, so the same reduction finds them.
+void Mechanics::choose_step() {
+  const ScopedTimer timer(*phases_.reduce);
+  last_good_ = estimate_;
+  estimate_ = mesh_->comm.min(local_least_.step);
+  if (estimate_ < 0) fail(estimate_);
+  if (first_estimate_ == 0) first_estimate_ = estimate_;
+  if (estimate_ < options_.time_step.collapse * first_estimate_) fail(estimate_);
+  stable_step_ = options_.time_step.scale * estimate_;
+  if (options_.time_step.maximum) stable_step_ = std::min(stable_step_, *options_.time_step.maximum);
+  if (!options_.time_step.fixed) return;
+  stable_step_ = *options_.time_step.fixed;
+  if (stable_step_ > 1.05 * estimate_ && warnings_.empty())
+    warnings_.push_back(
+        fmt::format("{}: time_step.fixed {:.4g} s is {:.2f} times the stable step of a free element, "
+                    "{:.4g} s; this can be unstable",
+                    name(), stable_step_, stable_step_ / estimate_, estimate_));
+}
+
+}  // namespace tenon

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Explicit finite elements: a deformable body of hexahedra, by central differences in time.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "components/mechanics/hex8_block.hpp"
+#include "components/mechanics/mechanics_options.hpp"
+#include "components/mechanics/nodal_conditions.hpp"
+#include "components/mechanics/nodal_state.hpp"
+#include "framework/simulation/component.hpp"
+
+namespace tenon {
+
+/// Velocities live half a step behind positions: v(n+1/2) = v(n-1/2) - dt f(n)/m, x(n+1) = x(n) + dt v(n+1/2), with the
+/// first kick over dt/2. Stresses and forces always belong to the present positions. Elements that touch a node of this
+/// rank are computed here, ghosts too, in ascending global order, so that one exchange of velocities per step is all
+/// communication, and forces are the same bits on any number of ranks.
+///
+/// Energies: the work at each kick, dt f . (v- + v+)/2, is exactly the change of kinetic energy (of the half-step
+/// velocities). Internal energy is the work of all element forces less what hourglass control and viscosity took.
+class Mechanics final : public Component {
+ public:
+  /// Collective. Throws Error(usage) where options and mesh do not fit.
+  Mechanics(std::string name, std::shared_ptr<const Mesh> mesh, MechanicsOptions options);
+
+  std::string_view type() const override { return "explicit_mechanics"; }
+  const Mesh& mesh() const override { return *mesh_; }
+
+  void initialize() override;
+  double time_step() override { return stable_step_; }
+  StepLimiter limiter() override;
+  void advance(double dt) override;
+
+  std::vector<ExportPort> exports() override;
+  std::vector<ImportPort> imports() override;
+  std::span<const Vec3> current_coordinates() const override { return nodes_.position(); }
+
+  void energies(std::vector<EnergyTerm>& terms) override;
+  std::vector<HistoryValue> history_values() override;
+  std::vector<SkipCount> skips() const override;
+
+  void save(CheckpointWriter& file) override;
+  void load(const CheckpointReader& file) override;
+
+  std::int64_t work_done() const override { return work_done_; }
+  std::int64_t memory() const override;
+
+  /// What a user should know but need not change; for the log.
+  const std::vector<std::string>& warnings() const { return warnings_; }
+  /// Nodal masses, kg; complete on owned nodes.
+  std::span<const double> nodal_mass() const { return nodes_.mass; }
+
+ private:
+  // Set-up.
+  void make_blocks();
+  void sum_masses();
+  void set_temperatures();
+  void set_velocities();
+  // Phases of a step.
+  void kick(double dt);
+  void refresh_ghosts();
+  void drift(double dt);
+  void compute_forces(double dt);
+  void choose_step();
+  // Messages.
+  [[noreturn]] void fail(double code);
+  std::string describe(std::size_t block, LocalIndex element) const;
+  GlobalId global_id(std::size_t block, LocalIndex element) const {
+    return mesh_->blocks[block].ids[static_cast<std::size_t>(element)];
+  }
+  // Fields.
+  template <typename Value>
+  ExportPort element_port(std::string field, int components, std::string unit, Value value);
+  void take_temperature(std::span<const double> values);
+  void give_heat(std::span<double> values);
+  double heat(std::size_t block, LocalIndex element) const;
+  template <typename Visit>
+  void for_owned(Visit visit) const;
+
+  std::shared_ptr<const Mesh> mesh_;
+  MechanicsOptions options_;
+  NodalConditions conditions_;
+  NodalState nodes_;
+  std::vector<std::unique_ptr<Hex8Block>> blocks_;  // as those of the mesh
+  std::vector<ElementValues> heat_given_;           // J, per block: taken from here by another component
+
+  double previous_dt_ = 0;  // of the last half step
+  double stable_step_ = 0;  // what time_step() says
+  double estimate_ = 0;     // of the elements, without scale
+  double last_good_ = 0;    // the estimate before, for messages
+  double first_estimate_ = 0;
+  BlockStep local_least_{};  // of this rank
+  std::size_t local_least_block_ = 0;
+  bool started_ = false;
+  bool loaded_ = false;
+  std::int64_t work_done_ = 0, owned_elements_ = 0, steps_ = 0;
+  std::vector<std::string> warnings_;
+
+  struct Phases {
+    PhaseTimer *forces, *update, *halo, *reduce;
+  } phases_{};
+};
+
+}  // namespace tenon

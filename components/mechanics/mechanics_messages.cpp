@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which element limits the step or has gone bad, in words; the same from every rank.
+#include <fmt/core.h>
+
+#include <cmath>
+#include <limits>
+
+#include "components/mechanics/hex8_volume.hpp"
+#include "components/mechanics/mechanics.hpp"
+
+namespace tenon {
+
+namespace {
+
+constexpr GlobalId none = std::numeric_limits<GlobalId>::max();
+
+Vec3 centre(std::span<const LocalIndex> nodes, std::span<const Vec3> x) {
+  Vec3 sum{};
+  for (const LocalIndex n : nodes) sum = sum + x[static_cast<std::size_t>(n)];
+  return 0.125 * sum;
+}
+
+}  // namespace
+
+std::string Mechanics::describe(std::size_t block, LocalIndex element) const {
+  const ElementBlock& b = mesh_->blocks[block];
+  const Vec3 now = centre(b.nodes(element), nodes_.position()), start = centre(b.nodes(element), mesh_->coordinates);
+  const std::string place = std::isfinite(now[0] + now[1] + now[2])
+                                ? fmt::format("at ({:.6g}, {:.6g}, {:.6g})", now[0], now[1], now[2])
+                                : "at no finite place";
+  return fmt::format("element {} of block {} {}, initially at ({:.6g}, {:.6g}, {:.6g})",
+                     b.labels[static_cast<std::size_t>(element)], b.name, place, start[0], start[1], start[2]);
+}
+
+StepLimiter Mechanics::limiter() {
+  const Communicator& comm = mesh_->comm;
+  const bool mine = local_least_.element != no_index && local_least_.step == estimate_;
+  const GlobalId least = comm.min(mine ? global_id(local_least_block_, local_least_.element) : none);
+  const bool here = mine && global_id(local_least_block_, local_least_.element) == least;
+  const int root = static_cast<int>(comm.min(static_cast<std::int64_t>(here ? comm.rank() : comm.size())));
+  std::string reason = "no element";
+  if (root < comm.size()) {
+    if (comm.rank() == root) reason = describe(local_least_block_, local_least_.element);
+    comm.broadcast(reason, root);
+  }
+  if (options_.time_step.fixed)
+    reason = fmt::format("time_step.fixed ({:.3g} of the step of {})", stable_step_ / estimate_, reason);
+  else if (stable_step_ < options_.time_step.scale * estimate_)
+    reason = "time_step.maximum";
+  return {stable_step_, reason};
+}
+
+// Rare: looks through the elements for the first that is bad in the way that `code` says (a collapsed step is the
+// smallest element, found already).
+void Mechanics::fail(double code) {
+  const Communicator& comm = mesh_->comm;
+  GlobalId first = none;
+  std::string message;
+  const auto consider = [&](std::size_t b, LocalIndex e, const std::string& what) {
+    if (global_id(b, e) >= first) return;
+    first = global_id(b, e);
+    message = fmt::format("{}: {} {} at t = {:.6g} s (step {})", name(), describe(b, e), what, time(), steps_);
+  };
+  ExitCode exit = code == inverted_element ? ExitCode::geometry : ExitCode::unstable;
+  for (std::size_t b = 0; b < blocks_.size() && code < 0; ++b) {
+    for (LocalIndex e = 0; e < blocks_[b]->size(); ++e) {
+      const std::span<const LocalIndex> nodes = mesh_->blocks[b].nodes(e);
+      const HexModes<double> x = hex8_modes(nodes, nodes_.position()), v = hex8_modes(nodes, nodes_.velocity());
+      const MeanGradient<double> gradient = mean_gradient(x);
+      const StepDeformation<double> step = step_deformation(velocity_gradient(v, gradient), previous_dt_);
+      const double volume = gradient.volume_192 / 192, strain = squared_norm(step.strain_increment);
+      if (code == inverted_element && volume <= 0)
+        consider(b, e,
+                 fmt::format("is inside out (volume {:.3g} m^3): the deformation is too large for the mesh", volume));
+      else if (code == exploding_element && !std::isfinite(volume))
+        consider(b, e, "has lost its numbers (not a number): the run is unstable, use a smaller time step");
+      else if (code == exploding_element && volume > 0 && !(strain < 1))
+        consider(b, e,
+                 fmt::format("deforms by {:.3g} in one step: the run is unstable, use a smaller time step",
+                             std::sqrt(strain)));
+    }
+  }
+  if (code >= 0 && local_least_.step == code)
+    consider(local_least_block_, local_least_.element,
+             fmt::format("allows only a time step of {:.3g} s, {:.1e} of the first one: the step has collapsed", code,
+                         code / first_estimate_));
+  if (options_.time_step.fixed && last_good_ > 0 && *options_.time_step.fixed > 1.05 * last_good_) {
+    exit = ExitCode::unstable;
+    message += fmt::format("; time_step.fixed is {:.3g} times the stable step", *options_.time_step.fixed / last_good_);
+  }
+  const GlobalId lowest = comm.min(first);
+  comm.throw_if_any(first == lowest && first != none ? std::optional<Error>(Error(exit, message)) : std::nullopt);
+  throw Error(exit, fmt::format("{}: an element has gone bad at t = {:.6g} s", name(), time()));
+}
+
+}  // namespace tenon

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Prescribed motions and rigid walls: what forces some velocity components at each step.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "components/mechanics/mechanics_options.hpp"
+#include "components/mechanics/nodal_state.hpp"
+#include "framework/mesh/mesh.hpp"
+
+namespace tenon {
+
+/// Velocities along given directions are replaced after the kick, so that prescribed places are reached exactly at the
+/// end of the step. The impulse that this takes is the reaction; its work m (v+ - v*) (v- + v+)/2 is booked per node.
+/// Directions of several conditions on one node are made orthonormal, so any two or three of them combine.
+class NodalConditions {
+ public:
+  /// Collective. Throws Error(usage) where conditions contradict each other, a set is unknown, or a node starts behind
+  /// or (bonded) off a wall.
+  NodalConditions(const Mesh& mesh, const std::vector<PrescribedMotion>& motions, const std::vector<RigidWall>& walls);
+
+  /// Makes velocities at the start time compatible with what stands still or has a prescribed velocity.
+  void start(std::span<Vec3> velocity, double time);
+
+  /// Local. After the kick over `kick` seconds: velocities for the step of length dt from `time`.
+  void apply(NodalState& nodes, double time, double kick, double dt);
+
+  bool has_motions() const { return !motions_.empty(); }
+  bool has_walls() const { return has_bonded_walls_ || !walls_.empty(); }
+  /// J since the start, of all local nodes (zero on ghosts); empty where the scene has no motions or walls.
+  std::vector<double>& boundary_work() { return boundary_work_; }
+  std::vector<double>& wall_work() { return wall_work_; }
+  std::int64_t memory() const;
+
+ private:
+  /// The component along `direction` follows from that along `normal` and those of the rows before.
+  struct Row {
+    Vec3 direction, normal;
+    double along[2], inverse;
+    std::int32_t motion;
+  };
+  struct Constrained {
+    LocalIndex node;
+    int rows = 0;
+    Row row[3];
+  };
+  struct Standing {
+    LocalIndex node;
+    std::int32_t constrained;        // or -1
+    std::int32_t first_wall, walls;  // in standing_walls_
+  };
+  /// A motion at one time: u = b + a (X - c), or a velocity b.
+  struct Prepared {
+    bool velocity;
+    Vec3 b, c;
+    std::array<double, 9> a;
+  };
+
+  void constrain(std::int32_t motion, Constrained& entry, std::optional<Error>& error) const;
+  void add_row(const Vec3& normal, std::int32_t motion, Constrained& entry, std::optional<Error>& error) const;
+  void find_walls(const Mesh& mesh, const std::vector<RigidWall>& walls);
+  Prepared prepare(const PrescribedMotion& motion, double time, double dt) const;
+  double target(const Row& row, const Vec3& reference, const Vec3& position, double dt) const;
+  void enforce(Constrained& entry, NodalState& nodes, double kick, double dt);
+  void enforce(const Standing& entry, NodalState& nodes, double kick, double dt);
+
+  const Mesh& mesh_;
+  std::vector<PrescribedMotion> motions_;
+  std::vector<RigidWall> walls_;
+  bool has_bonded_walls_ = false;
+  std::vector<Prepared> prepared_;
+  std::vector<double> wall_distance_;  // of the plane from the origin along its normal, at the step's end
+  std::vector<Constrained> constrained_;
+  std::vector<Standing> standing_;
+  std::vector<std::int32_t> standing_walls_;
+  std::vector<double> boundary_work_, wall_work_;
+};
+
+}  // namespace tenon

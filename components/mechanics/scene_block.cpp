@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "components/mechanics/scene_block.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+namespace tenon {
+namespace {
+
+using scene::Diagnostics;
+using scene::Value;
+using Kind = PrescribedMotion::Kind;
+using Materials = std::map<std::string, MaterialDescription>;
+
+/// What reading needs all the time.
+struct Reader {
+  const MeshSummary& mesh;
+  Diagnostics& diagnostics;
+
+  void check_name(const Value& value, const std::string& key, const std::string& name,
+                  const std::vector<MeshSummary::Entry>& entries, const std::string& what) const {
+    std::vector<std::string> names;
+    for (const MeshSummary::Entry& entry : entries) names.push_back(entry.name);
+    const auto found = std::ranges::find(names, name);
+    if (found == names.end())
+      diagnostics.error(value.where(key), fmt::format("{}: the mesh {} has no {} '{}'{}", key, mesh.source, what, name,
+                                                      scene::suggestion(name, names)));
+    else if (entries[static_cast<std::size_t>(found - names.begin())].count == 0)
+      diagnostics.error(value.where(key),
+                        fmt::format("{}: {} '{}' of the mesh {} is empty", key, what, name, mesh.source));
+  }
+
+  std::vector<std::string> node_sets(const Value& value) const {
+    if (!value.has("node_sets")) return {};
+    const std::vector<std::string> sets = value.texts("node_sets");
+    for (const std::string& set : sets) check_name(value, "node_sets", set, mesh.node_sets, "node set");
+    return sets;
+  }
+
+  std::array<bool, 3> components(const Value& value) const {
+    if (!value.has("components")) return {true, true, true};
+    std::array<bool, 3> chosen{};
+    const std::vector<std::string> names{"x", "y", "z"};
+    for (const std::string& c : value.texts("components")) {
+      const auto found = std::ranges::find(names, c);
+      if (found != names.end())
+        chosen[static_cast<std::size_t>(found - names.begin())] = true;
+      else
+        diagnostics.error(value.where("components"), fmt::format("components: '{}' is not one of x, y, z", c));
+    }
+    return chosen;
+  }
+
+  std::array<double, 9> gradient(const Value& value) const {
+    std::array<double, 9> result{};
+    if (!value.has("gradient")) return result;
+    const std::vector<double> given = value.reals("gradient");
+    if (given.size() != 9)
+      diagnostics.error(value.where("gradient"),
+                        fmt::format("gradient: has {} numbers; expected nine, row by row", given.size()));
+    std::copy_n(given.begin(), std::min<std::size_t>(given.size(), 9), result.begin());
+    return result;
+  }
+
+  Vec3 direction(const Value& value, const std::string& key) const {
+    const Vec3 v = value.vector(key);
+    if (!(norm(v) > 0)) diagnostics.error(value.where(key), key + ": has no length; expected a direction");
+    return norm(v) > 0 ? v : Vec3{0, 0, 1};
+  }
+
+  std::vector<Value> items(const Value& value, const char* key) const {
+    return value.has(key) ? value.items(key) : std::vector<Value>{};
+  }
+
+  PrescribedMotion motion(const Value& value, Kind kind, const std::string& what) const {
+    PrescribedMotion m;
+    m.kind = kind;
+    m.node_sets = node_sets(value);
+    m.label = what;
+    for (const std::string& set : m.node_sets) m.label += (&set == &m.node_sets.front() ? " of " : ", ") + set;
+    return m;
+  }
+};
+
+const MaterialDescription* find_material(const Value& value, const Materials& materials, Diagnostics& diagnostics) {
+  const std::string& name = value.text("material");
+  const auto found = materials.find(name);
+  if (found == materials.end()) {
+    std::vector<std::string> names;
+    for (const auto& [known, material] : materials) names.push_back(known);
+    diagnostics.error(value.where("material"),
+                      fmt::format("material: there is no material '{}'{}", name, scene::suggestion(name, names)));
+    return nullptr;
+  }
+  if (!found->second.elastic) {
+    diagnostics.error(value.where("material"),
+                      fmt::format("material: '{}' has no elastic constants; give it an 'elastic' block", name));
+    return nullptr;
+  }
+  return &found->second;
+}
+
+void read_blocks(const Value& value, const Reader& reader, const Materials& materials, MechanicsOptions& options) {
+  std::map<std::string, Value> own;
+  if (value.has("blocks"))
+    for (const auto& [name, block] : value.entries("blocks")) own.emplace(name, block);
+  std::vector<std::string> names;
+  for (const MeshSummary::Entry& entry : reader.mesh.blocks) {
+    names.push_back(entry.name);
+    if (entry.kind != ElementKind::hex8)
+      reader.diagnostics.error(value.where("mesh"),
+                               fmt::format("mesh: block '{}' consists of {}; mechanics computes hex8", entry.name,
+                                           topology(entry.kind).name));
+    const auto found = own.find(entry.name);
+    if (found == own.end() && !value.has("material")) {
+      reader.diagnostics.error(value.where(), fmt::format("block '{}' of the mesh has no material; give 'material' for "
+                                                          "all blocks or an entry under 'blocks'",
+                                                          entry.name));
+      continue;
+    }
+    const Value& from = found == own.end() ? value : found->second;
+    if (const MaterialDescription* material = find_material(from, materials, reader.diagnostics)) {
+      options.blocks.push_back({entry.name, *material});
+      const bool plastic = !std::holds_alternative<std::monostate>(material->plasticity);
+      if (options.heat != HeatMode::none && plastic && !material->thermal)
+        reader.diagnostics.error(
+            from.where("material"),
+            fmt::format("material: '{}' has no thermal properties, which heat: {} needs; give it a "
+                        "'thermal' block",
+                        material->name, value.text("heat")));
+    }
+  }
+  for (const auto& [name, block] : own)
+    if (std::ranges::find(names, name) == names.end())
+      reader.diagnostics.error(value.where_name("blocks", name),
+                               fmt::format("blocks: the mesh {} has no block '{}'{}", reader.mesh.source, name,
+                                           scene::suggestion(name, names)));
+}
+
+void read_control(const Value& value, MechanicsOptions& options) {
+  const std::string& heat = value.text("heat");
+  options.heat = heat == "adiabatic" ? HeatMode::adiabatic : heat == "exported" ? HeatMode::exported : HeatMode::none;
+  if (value.has("initial_temperature")) options.initial_temperature = value.real("initial_temperature");
+  if (value.has("hourglass")) {
+    using Form = HourglassOptions::Form;
+    const Value h = value.child("hourglass");
+    const std::string& form = h.text("form");
+    options.hourglass.form = form == "stiffness" ? Form::stiffness : form == "none" ? Form::none : Form::viscous;
+    const double usual = options.hourglass.form == Form::stiffness ? 0.05 : 0.1;
+    options.hourglass.coefficient = h.has("coefficient") ? h.real("coefficient") : usual;
+  }
+  if (value.has("bulk_viscosity")) {
+    const Value q = value.child("bulk_viscosity");
+    options.viscosity = {q.real("linear"), q.real("quadratic")};
+  }
+  if (value.has("time_step")) {
+    const Value step = value.child("time_step");
+    options.time_step.scale = step.real("scale");
+    if (step.has("fixed")) options.time_step.fixed = step.real("fixed");
+    if (step.has("maximum")) options.time_step.maximum = step.real("maximum");
+  }
+}
+
+void read_initial(const Value& value, const Reader& reader, MechanicsOptions& options) {
+  if (value.has("initial_velocity"))
+    options.initial_velocities.push_back({"", "", value.vector("initial_velocity"), {}, {}});
+  for (const Value& item : reader.items(value, "initial_velocities")) {
+    InitialVelocity v;
+    if (item.has("block")) {
+      v.block = item.text("block");
+      reader.check_name(item, "block", v.block, reader.mesh.blocks, "block");
+    }
+    if (item.has("node_set")) {
+      v.node_set = item.text("node_set");
+      reader.check_name(item, "node_set", v.node_set, reader.mesh.node_sets, "node set");
+    }
+    v.velocity = item.vector("velocity");
+    v.gradient = reader.gradient(item);
+    v.centre = item.vector("centre");
+    options.initial_velocities.push_back(std::move(v));
+  }
+}
+
+void read_components(const Value& item, const Reader& reader, PrescribedMotion& m) {
+  const char* const names[] = {"x", "y", "z"};
+  for (std::size_t c = 0; c < 3; ++c) {
+    m.components[c] = item.has(names[c]);
+    if (m.components[c]) m.value[c] = item.function(names[c]);
+  }
+  if (m.components == std::array<bool, 3>{})
+    reader.diagnostics.error(item.where(), "prescribes nothing; expected at least one of x, y, z");
+}
+
+void read_motions(const Value& value, const Reader& reader, std::vector<PrescribedMotion>& motions) {
+  for (const Value& item : reader.items(value, "fixed")) {
+    PrescribedMotion m = reader.motion(item, Kind::fixed, "fixed");
+    m.components = reader.components(item);
+    motions.push_back(std::move(m));
+  }
+  for (const Value& item : reader.items(value, "prescribed_displacements")) {
+    PrescribedMotion m = reader.motion(item, Kind::displacement, "prescribed displacement");
+    read_components(item, reader, m);
+    motions.push_back(std::move(m));
+  }
+  for (const Value& item : reader.items(value, "prescribed_velocities")) {
+    PrescribedMotion m = reader.motion(item, Kind::velocity, "prescribed velocity");
+    read_components(item, reader, m);
+    motions.push_back(std::move(m));
+  }
+  for (const Value& item : reader.items(value, "prescribed_gradients")) {
+    PrescribedMotion m = reader.motion(item, Kind::gradient, "prescribed gradient");
+    m.components = reader.components(item);
+    m.gradient = reader.gradient(item);
+    m.centre = item.vector("centre");
+    m.factor = item.function("factor");
+    motions.push_back(std::move(m));
+  }
+  for (const Value& item : reader.items(value, "prescribed_rotations")) {
+    PrescribedMotion m = reader.motion(item, Kind::rotation, "prescribed rotation");
+    m.axis = reader.direction(item, "axis");
+    m.centre = item.vector("centre");
+    m.factor = item.function("angle");
+    motions.push_back(std::move(m));
+  }
+  for (const Value& item : reader.items(value, "symmetry_planes")) {
+    PrescribedMotion m = reader.motion(item, Kind::symmetry, "symmetry plane");
+    m.normal = reader.direction(item, "normal");
+    motions.push_back(std::move(m));
+  }
+}
+
+void read_walls(const Value& value, const Reader& reader, MechanicsOptions& options) {
+  for (const Value& item : reader.items(value, "rigid_walls")) {
+    const TimeFunction motion = item.has("motion") ? item.function("motion") : TimeFunction::constant(0);
+    if (!item.flag("bilateral")) {
+      options.walls.push_back({item.vector("point"), reader.direction(item, "normal"), motion, reader.node_sets(item),
+                               fmt::format("rigid wall {}", options.walls.size() + 1)});
+      continue;
+    }
+    PrescribedMotion m = reader.motion(item, Kind::wall, "bilateral rigid wall");
+    if (m.node_sets.empty())
+      reader.diagnostics.error(item.where(), "a bilateral rigid wall needs node_sets: the nodes that stay on it");
+    m.centre = item.vector("point");
+    m.normal = reader.direction(item, "normal");
+    m.factor = motion;
+    options.motions.push_back(std::move(m));
+  }
+}
+
+}  // namespace
+
+MechanicsOptions read_mechanics(const Value& value, const MeshSummary& mesh, const Materials& materials,
+                                Diagnostics& diagnostics) {
+  const Reader reader{mesh, diagnostics};
+  MechanicsOptions options;
+  read_control(value, options);
+  read_blocks(value, reader, materials, options);
+  read_initial(value, reader, options);
+  read_motions(value, reader, options.motions);
+  read_walls(value, reader, options);
+  return options;
+}
+
+}  // namespace tenon
