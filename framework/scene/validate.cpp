@@ -39,6 +39,11 @@ bool may_be_absent(const Schema& schema) {
          std::none_of(schema.groups().begin(), schema.groups().end(), one_needed);
 }
 
+/// Where the name of a block stands; on the command line if its value came from there.
+const Place& place_of(const TreeMember& member) {
+  return member.value.place.line == 0 ? member.value.place : member.place;
+}
+
 }  // namespace
 
 void Validator::complain(const Place& place, const Context& context, const std::string& message) {
@@ -111,7 +116,7 @@ Value Validator::mapping(const TreeNode& node, const Schema& schema, const Conte
     if (const TreeMember* member = node.find(key.name)) {
       slot.given = true;
       slot.place = member->value.place;
-      slot.content = content(member->value, key, context.inside(key.name, member->place));
+      slot.content = content(member->value, key, context.inside(key.name, place_of(*member)));
       slot.has = !std::holds_alternative<std::monostate>(slot.content);
     } else {
       slot.content = default_of(key, context);
@@ -192,7 +197,7 @@ Validator::Content Validator::named(const TreeNode& node, const Key& key, const 
   for (const TreeMember& member : node.members)
     if (member.place.line != 0) names_in_file.push_back(member.key);
   for (const TreeMember& member : node.members) {
-    const Context inside = context.inside(member.key, member.place);
+    const Context inside = context.inside(member.key, place_of(member));
     if (!is_name(member.key))
       complain(member.place, context,
                quoted(member.key) + " is not a name; a name is a letter, then letters, digits, '_' and '-'");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The schema and scene that the tests of complaints, overrides, reference and fuzzing share.
-#include "tests/unit/scene/rich_schema.hpp"
+#include "rich_schema.hpp"
 
 namespace tenon::testing {
 
