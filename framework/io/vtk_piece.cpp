@@ -6,6 +6,7 @@
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
+#include <vtkExecutive.h>
 #include <vtkIdTypeArray.h>
 #include <vtkIntArray.h>
 #include <vtkNew.h>
@@ -195,7 +196,7 @@ void write_piece(const std::string& path, const OutputPart& part) {
 
   const std::string aside = path + ".part";
   const vtkNew<vtkXMLUnstructuredGridWriter> writer;
-  const VtkErrorNote errors(writer);
+  const VtkErrorNote errors(writer), of_pipeline(writer->GetExecutive());
   writer->SetInputData(grid);
   writer->SetFileName(aside.c_str());
   writer->SetDataModeToBinary();
