@@ -85,6 +85,15 @@ std::optional<Error> caught(const std::function<void()>& work) {
   return std::nullopt;
 }
 
+MPI_Comm duplicate_of(MPI_Comm mpi) {
+  int initialised = 0;
+  MPI_Initialized(&initialised);
+  if (!initialised) throw Error(ExitCode::usage, "a communicator needs MPI: make an MpiEnvironment first, in main");
+  MPI_Comm copy = MPI_COMM_NULL;
+  MPI_Comm_dup(mpi, &copy);
+  return copy;
+}
+
 }  // namespace
 
 MpiEnvironment::MpiEnvironment(int& argc, char**& argv) {
@@ -133,18 +142,17 @@ MPI_Comm mpi_communicator(const Communicator& comm) {
 }
 
 Communicator Communicator::world() {
-  int initialised = 0;
-  MPI_Initialized(&initialised);
-  if (!initialised) throw Error(ExitCode::usage, "Communicator::world: make an MpiEnvironment first, in main");
-  MPI_Comm copy = MPI_COMM_NULL;
-  MPI_Comm_dup(MPI_COMM_WORLD, &copy);
-  return Communicator(std::make_shared<Impl>(copy, std::make_shared<std::deque<ExchangeCount>>()));
+  return Communicator(
+      std::make_shared<Impl>(duplicate_of(MPI_COMM_WORLD), std::make_shared<std::deque<ExchangeCount>>()));
+}
+
+Communicator Communicator::self() {
+  return Communicator(
+      std::make_shared<Impl>(duplicate_of(MPI_COMM_SELF), std::make_shared<std::deque<ExchangeCount>>()));
 }
 
 Communicator Communicator::duplicate() const {
-  MPI_Comm copy = MPI_COMM_NULL;
-  MPI_Comm_dup(impl_->mpi, &copy);
-  return Communicator(std::make_shared<Impl>(copy, impl_->counts));
+  return Communicator(std::make_shared<Impl>(duplicate_of(impl_->mpi), impl_->counts));
 }
 
 int Communicator::rank() const {

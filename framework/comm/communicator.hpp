@@ -41,6 +41,8 @@ struct ExchangeCount {
 class Communicator {
  public:
   static Communicator world();
+  /// Local: this rank alone.
+  static Communicator self();
 
   int rank() const;
   int size() const;

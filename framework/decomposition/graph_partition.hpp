@@ -10,6 +10,7 @@
 
 namespace tenon {
 
+/// How elements are divided. `automatic` takes of `graph` and `rcb` the one that cuts fewer faces between elements.
 enum class PartitionMethod { automatic, graph, rcb };
 
 /// Vertices (elements) of a graph held by this rank. Vertex i has the neighbours
@@ -22,9 +23,12 @@ struct PartitionGraph {
   std::vector<GlobalId> adjacency;
 };
 
-/// Collective. Part (0 .. parts-1) of each vertex of this rank. Through Zoltan. Ranks may hold no vertices.
+/// Collective. Part (0 .. parts-1) of each vertex of this rank. Through Zoltan. Ranks may hold no vertices. Every part
+/// gets at least one vertex, if there are as many. The graph must be symmetric; neighbours that no rank holds are
+/// passed over. Up to `vertices_on_root` vertices are divided by rank 0 alone: the parallel PT-Scotch sends many small
+/// messages, and takes twice as long on two ranks as on one.
 std::vector<int> partition_graph(const Communicator& comm, const PartitionGraph& graph, int parts,
-                                 PartitionMethod method);
+                                 PartitionMethod method, std::int64_t vertices_on_root = 300'000);
 
 /// Greatest over mean of a non-negative quantity over the ranks (1 = perfect). Collective.
 double imbalance(const Communicator& comm, double mine);
