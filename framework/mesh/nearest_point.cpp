@@ -154,6 +154,33 @@ std::array<double, max_side_nodes> on_side(const std::array<Vec3, max_side_nodes
   return weight;
 }
 
+/// One side as the point sees it.
+struct SeenSide {
+  std::size_t side;
+  std::array<Vec3, max_side_nodes> corner;
+  double at_least;  ///< distance to the box of its corners; the side lies within their hull
+};
+
+/// Sides by ascending `at_least`, so that the first often settles the search; equal ones in the order of the table.
+/// A surface element has one.
+std::size_t see_sides(const Topology& t, std::span<const Vec3> corners, const Vec3& point,
+                      std::array<SeenSide, max_sides>& sides) {
+  const std::size_t count = t.dimension == 2 ? 1 : static_cast<std::size_t>(t.sides);
+  for (std::size_t s = 0; s < count; ++s) {
+    SeenSide seen{s, {}, 0};
+    Box box;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(t.side_nodes[s]); ++i) {
+      seen.corner[i] = corners[static_cast<std::size_t>(t.side[s][i])] - point;
+      box.add(seen.corner[i]);
+    }
+    seen.at_least = box.distance({0, 0, 0});
+    std::size_t k = s;
+    for (; k > 0 && seen.at_least < sides[k - 1].at_least; --k) sides[k] = sides[k - 1];
+    sides[k] = seen;
+  }
+  return count;
+}
+
 }  // namespace
 
 NearestPoint nearest_point(ElementKind kind, std::span<const Vec3> corners, const Vec3& point) {
@@ -163,21 +190,14 @@ NearestPoint nearest_point(ElementKind kind, std::span<const Vec3> corners, cons
   const Topology& t = topology(kind);
   const std::array<Vec3, max_element_nodes> reference = reference_corners(kind);
   NearestPoint best{element_centre(kind), std::numeric_limits<double>::infinity()};
-  const std::size_t sides = t.dimension == 2 ? 1 : static_cast<std::size_t>(t.sides);
-  for (std::size_t s = 0; s < sides; ++s) {
-    std::array<Vec3, max_side_nodes> corner{};
-    Box box;
-    const auto nodes = static_cast<std::size_t>(t.side_nodes[s]);
-    for (std::size_t i = 0; i < nodes; ++i) {
-      corner[i] = corners[static_cast<std::size_t>(t.side[s][i])] - point;
-      box.add(corner[i]);
-    }
-    if (box.distance({0, 0, 0}) > best.distance) continue;  // a side lies within the hull of its corners
-    const std::array<double, max_side_nodes> weight = on_side(corner, t.side_nodes[s]);
+  std::array<SeenSide, max_sides> sides{};
+  const std::size_t count = see_sides(t, corners, point, sides);
+  for (std::size_t k = 0; k < count && sides[k].at_least <= best.distance; ++k) {
+    const std::array<double, max_side_nodes> weight = on_side(sides[k].corner, t.side_nodes[sides[k].side]);
     Vec3 away{}, xi{};
-    for (std::size_t i = 0; i < nodes; ++i) {
-      away = away + weight[i] * corner[i];
-      xi = xi + weight[i] * reference[static_cast<std::size_t>(t.side[s][i])];
+    for (std::size_t i = 0; i < static_cast<std::size_t>(t.side_nodes[sides[k].side]); ++i) {
+      away = away + weight[i] * sides[k].corner[i];
+      xi = xi + weight[i] * reference[static_cast<std::size_t>(t.side[sides[k].side][i])];
     }
     if (const double distance = norm(away); distance < best.distance) best = {xi, distance};
   }
