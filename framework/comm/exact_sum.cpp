@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 namespace tenon {
@@ -32,9 +33,33 @@ Parts split(double value) {
   return {(magnitude ^ sign) - sign, biased == 0 ? 1 : biased};
 }
 
+// Four doubles at once.
+constexpr std::size_t lanes = 4;
+typedef double Vector __attribute__((vector_size(lanes * sizeof(double))));
+typedef std::int64_t Bits __attribute__((vector_size(lanes * sizeof(double))));
+
+Vector load(const double* from) {
+  Vector v;
+  std::memcpy(&v, from, sizeof v);
+  return v;
+}
+Vector magnitude(Vector v) {
+  return std::bit_cast<Vector>(std::bit_cast<Bits>(v) & std::numeric_limits<std::int64_t>::max());
+}
+Vector greater(Vector a, Vector b) {
+  return b > a ? b : a;
+}
+double sum_of_lanes(Vector v) {
+  return (v[0] + v[1]) + (v[2] + v[3]);
+}
+double greatest_lane(Vector v) {
+  return std::max({v[0], v[1], v[2], v[3]});
+}
+
 }  // namespace
 
-void ExactSum::add(double value) {
+// Puts a term into three neighbouring digits.
+void ExactSum::place(double value) {
   const auto [mantissa, exponent] = split(value);
   if (exponent == 0x7ff) {
     ++special_;
@@ -50,40 +75,53 @@ void ExactSum::add(double value) {
   if (++pending_ >= pending_limit) normalise();
 }
 
-void ExactSum::add(std::span<const double> values) {
-  for (const double value : values) add(value);
+void ExactSum::flush() {
+  constexpr std::size_t few = 32;  // below, one by one is as quick
+  if (waiting_ < few || !flush_at_once())
+    for (std::size_t i = 0; i < waiting_; ++i) place(buffer_[i]);
+  waiting_ = 0;
 }
 
-void ExactSum::add_product(double a, double b) {
-  const Parts x = split(a), y = split(b);
-  if (x.exponent == 0x7ff || y.exponent == 0x7ff) {
-    ++special_;
-    return;
+// [ROO08, algorithm 3.3]: with sigma = 2^k >= 2^log2_terms max|x|, q = (sigma + x) - sigma is x rounded to a multiple
+// of 2^-53 sigma, x - q is exact, and so is the sum of all q in any order. Three rounds take 3 x 44 bits below the
+// greatest term. False, with nothing done, if a term reaches deeper, is not finite or nearly overflows.
+bool ExactSum::flush_at_once() {
+  constexpr int log2_terms = 9;         // 2^9 >= 256 + 2
+  constexpr double narrower = 0x1p-44;  // 2^(log2_terms - 53)
+  static_assert(buffer_size + 2 <= std::size_t{1} << log2_terms && buffer_size % lanes == 0);
+  std::fill(buffer_.begin() + static_cast<std::ptrdiff_t>(waiting_), buffer_.end(), 0.0);
+
+  Vector largest{};
+  for (std::size_t i = 0; i < buffer_size; i += lanes) largest = greater(largest, magnitude(load(&buffer_[i])));
+  const std::uint64_t biased = std::bit_cast<std::uint64_t>(greatest_lane(largest)) >> 52;
+  if (biased > 2000) return false;
+  const double sigma = std::bit_cast<double>((biased + 1 + log2_terms) << 52);
+  const Vector sigma_1 = Vector{} + sigma, sigma_2 = sigma_1 * narrower, sigma_3 = sigma_2 * narrower;
+
+  Vector sum_1{}, sum_2{}, sum_3{}, left{};
+  for (std::size_t i = 0; i < buffer_size; i += lanes) {
+    Vector x = load(&buffer_[i]);
+    const Vector q_1 = (sigma_1 + x) - sigma_1;
+    x -= q_1;
+    const Vector q_2 = (sigma_2 + x) - sigma_2;
+    x -= q_2;
+    const Vector q_3 = (sigma_3 + x) - sigma_3;
+    x -= q_3;
+    sum_1 += q_1;
+    sum_2 += q_2;
+    sum_3 += q_3;
+    left = greater(left, magnitude(x));
   }
-  const int shift = x.exponent + y.exponent - 1076;
-  if (shift < 0) {
-    // The last bits may lie below the accumulator's unit; fma then rounds this term to it, whatever the order.
-    const double product = a * b;
-    add(product);
-    add(std::fma(a, b, -product));
-    return;
-  }
-  if (shift > 2015) {  // above 2^1046: far beyond double
-    ++special_;
-    return;
-  }
-  const Signed128 product = Signed128{x.mantissa} * y.mantissa;
-  const int s = shift & 31;
-  const auto low = static_cast<std::uint64_t>(product) << s;
-  const auto high = static_cast<std::uint64_t>(product >> (64 - s));
-  const auto top = static_cast<std::int64_t>(product >> 64) >> 1 >> (63 - s);
-  std::int64_t* digit = &digit_[static_cast<std::size_t>(shift >> 5)];
-  digit[0] += static_cast<std::int64_t>(low & low_digit);
-  digit[1] += static_cast<std::int64_t>(low >> 32);
-  digit[2] += static_cast<std::int64_t>(high & low_digit);
-  digit[3] += static_cast<std::int64_t>(high >> 32);
-  digit[4] += top;
-  if (++pending_ >= pending_limit) normalise();
+  const double total_1 = sum_of_lanes(sum_1);
+  if (greatest_lane(left) > 0 || total_1 != total_1) return false;  // the second: a term was not a number
+  place(total_1);
+  place(sum_of_lanes(sum_2));
+  place(sum_of_lanes(sum_3));
+  return true;
+}
+
+void ExactSum::add(std::span<const double> values) {
+  for (const double value : values) add(value);
 }
 
 void ExactSum::add(const ExactSum& other) {
@@ -96,7 +134,9 @@ void ExactSum::add(const ExactSum& other) {
   if (pending_ > pending_limit / 2 - 2) normalise();
   for (std::size_t i = 0; i < digit_.size(); ++i) digit_[i] += other.digit_[i];
   special_ += other.special_;
-  pending_ += other.pending_ + 1;  // the digits of a normalised sum weigh as much as one term
+  pending_ += other.pending_ + 1;             // the digits of a normalised sum weigh as much as one term
+  const std::size_t others = other.waiting_;  // may be this sum itself
+  for (std::size_t i = 0; i < others; ++i) add(other.buffer_[i]);
 }
 
 void ExactSum::clear() {
@@ -115,8 +155,9 @@ void ExactSum::normalise() {
 }
 
 double ExactSum::value() const {
-  if (special_ > 0) return std::numeric_limits<double>::quiet_NaN();
   ExactSum sum = *this;
+  sum.flush();
+  if (sum.special_ > 0) return std::numeric_limits<double>::quiet_NaN();
   sum.normalise();
   const bool negative = sum.digit_.back() < 0;
   if (negative) {
@@ -148,10 +189,11 @@ double ExactSum::value() const {
 
 std::array<std::int64_t, ExactSum::digits + 1> ExactSum::words() const {
   ExactSum sum = *this;
+  sum.flush();
   sum.normalise();
   std::array<std::int64_t, digits + 1> words{};
   std::copy(sum.digit_.begin(), sum.digit_.end(), words.begin());
-  words[digits] = special_;
+  words[digits] = sum.special_;
   return words;
 }
 
