@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
+#include "transfer/balance.hpp"
 #include "transfer/element_points.hpp"
 #include "transfer/rows.hpp"
 #include "transfer/spreading.hpp"
@@ -11,15 +12,6 @@
 namespace tenon::transfer {
 
 namespace {
-
-/// Part of an amount that goes to one target item.
-struct Piece {
-  GlobalId target;
-  double weight;
-  LocalIndex at_owner;
-  int owner;
-  int order;  // keeps equal targets in the order of the points
-};
 
 /// A term on its way to the owner of its row.
 struct Entry {
@@ -30,65 +22,66 @@ struct Entry {
   LocalIndex at_owner;
 };
 
-/// Adds up pieces for the same target, in ascending order of targets, and makes their sum 1 to within an ulp, so that
-/// no amount is lost.
-void merge(std::vector<Piece>& pieces) {
-  std::sort(pieces.begin(), pieces.end(),
-            [](const Piece& a, const Piece& b) { return std::tie(a.target, a.order) < std::tie(b.target, b.order); });
-  std::size_t merged = 0;
-  for (const Piece& piece : pieces) {
-    if (merged > 0 && pieces[merged - 1].target == piece.target)
-      pieces[merged - 1].weight += piece.weight;
+/// Puts pieces in ascending order of targets and adds up those of the same target, in the order of the points.
+void merge(std::vector<Piece>& pieces, std::vector<std::pair<GlobalId, int>>& order, std::vector<Piece>& merged) {
+  order.clear();
+  for (std::size_t i = 0; i < pieces.size(); ++i) order.emplace_back(pieces[i].target, static_cast<int>(i));
+  std::sort(order.begin(), order.end());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const Piece& piece = pieces[static_cast<std::size_t>(order[i].second)];
+    if (i > 0 && order[i].first == order[i - 1].first)
+      merged.back().weight += piece.weight;
     else
-      pieces[merged++] = piece;
-  }
-  pieces.resize(merged);
-  const auto largest = std::max_element(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) {
-    return std::abs(a.weight) < std::abs(b.weight);
-  });
-  for (int repeat = 0; repeat < 2; ++repeat) {
-    double sum = 0;
-    for (const Piece& piece : pieces) sum += piece.weight;
-    largest->weight += 1 - sum;
+      merged.push_back(piece);
   }
 }
 
-struct Outgoing {
-  std::vector<Entry> entries;
-  std::vector<int> to;
-};
-
-Outgoing entries_of(const SpreadingPoints& spreading, std::span<const Placement> places, const PlacedNodes& nodes,
-                    bool to_nodes) {
-  Outgoing outgoing;
+Columns columns_of(const SpreadingPoints& spreading, std::span<const Placement> places, const PlacedNodes& nodes,
+                   bool to_nodes) {
+  Columns columns;
   std::vector<Piece> pieces;
+  std::vector<std::pair<GlobalId, int>> order;
   for (std::size_t g = 0; g < spreading.groups(); ++g) {
     for (std::size_t s = spreading.first_share[g]; s < spreading.first_share[g + 1]; ++s) {
-      const SpreadingPoints::Share& share = spreading.shares[s];
       pieces.clear();
       for (std::size_t p = spreading.begin[g]; p < spreading.begin[g + 1]; ++p) {
         const Placement& place = places[p];
-        const double part = spreading.weights[share.first_weight + p - spreading.begin[g]];
-        const auto add = [&](GlobalId target, double weight, LocalIndex at_owner, int owner) {
-          pieces.push_back({target, part * weight, at_owner, owner, static_cast<int>(pieces.size())});
-        };
+        const double part = spreading.weights[spreading.shares[s].first_weight + p - spreading.begin[g]];
         if (!to_nodes) {
-          add(place.element, 1.0, place.item, place.owner);
+          pieces.push_back({place.element, part, place.item, place.owner});
           continue;
         }
         const ElementNodes& at = nodes.of(p);
         for (std::size_t a = 0; a < static_cast<std::size_t>(topology(place.kind).nodes); ++a)
-          if (place.weights[a] != 0) add(at.id[a], place.weights[a], at.at_owner[a], at.owner[a]);
+          if (place.weights[a] != 0) pieces.push_back({at.id[a], part * place.weights[a], at.at_owner[a], at.owner[a]});
       }
-      merge(pieces);
-      for (const Piece& piece : pieces) {
-        outgoing.entries.push_back(
-            {share.source, piece.weight * share.amount, piece.at_owner, share.owner, share.at_owner});
-        outgoing.to.push_back(piece.owner);
-      }
+      merge(pieces, order, columns.pieces);
+      columns.begin.push_back(columns.pieces.size());
+      normalise(columns.column(s));
     }
   }
-  return outgoing;
+  return columns;
+}
+
+/// Brings all terms to the owners of their rows.
+std::vector<Entry> exchange(const Communicator& comm, const SpreadingPoints& spreading, const Columns& columns,
+                            const std::string& name) {
+  std::vector<Entry> entries;
+  std::vector<int> to;
+  entries.reserve(columns.pieces.size());
+  to.reserve(columns.pieces.size());
+  for (std::size_t c = 0; c < spreading.shares.size(); ++c) {
+    const SpreadingPoints::Share& share = spreading.shares[c];
+    for (std::size_t k = columns.begin[c]; k < columns.begin[c + 1]; ++k) {
+      const Piece& piece = columns.pieces[k];
+      entries.push_back({share.source, piece.weight * share.amount, piece.at_owner, share.owner, share.at_owner});
+      to.push_back(piece.owner);
+    }
+  }
+  const ExchangePlan plan = ExchangePlan::to_ranks(comm, to, name);
+  std::vector<Entry> arrived(static_cast<std::size_t>(plan.received()));
+  plan.forward(std::span<const Entry>(entries), std::span<Entry>(arrived));
+  return arrived;
 }
 
 /// Rows of the owned items from entries in any order. Terms of the same source, which come from several elements
@@ -136,17 +129,15 @@ Rows conservation_rows(const Side& source, const Side& target, const PlaceRules&
   sought.places = locate(comm, containers, sought.points, rules, name + ".locate");
 
   const bool to_nodes = target.location == Location::node;
-  std::vector<Entry> arrived;
+  Columns columns;
   {
     const PlacedNodes nodes(target.mesh, target.nodes,
                             to_nodes ? std::span<const Placement>(sought.places) : std::span<const Placement>{},
                             name + ".nodes");
-    const Outgoing outgoing = entries_of(spreading, sought.places, nodes, to_nodes);
-    const ExchangePlan plan = ExchangePlan::to_ranks(comm, outgoing.to, name + ".rows");
-    arrived.resize(static_cast<std::size_t>(plan.received()));
-    plan.forward(std::span<const Entry>(outgoing.entries), std::span<Entry>(arrived));
+    columns = columns_of(spreading, sought.places, nodes, to_nodes);
   }
-  Rows rows = assemble(target.items, arrived);
+  balance(target, spreading, columns, name + ".balance");
+  Rows rows = assemble(target.items, exchange(comm, spreading, columns, name + ".rows"));
   if (density) {
     const std::vector<double> volumes = item_volumes(target.mesh, target.coordinates, target.location);
     for (std::size_t i = 0; i < rows.size(); ++i)

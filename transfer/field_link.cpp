@@ -145,10 +145,14 @@ std::vector<std::string> FieldLink::report() {
                               r.targets, r.outside, r.greatest_distance, r.farthest[0], r.farthest[1], r.farthest[2]));
   const std::string& unit = export_.field.unit;
   if (total()) {
-    const double sent = source().mesh().comm.sum(exact(sent_)), arrived = source().mesh().comm.sum(exact(received_));
-    const double scale = std::max(std::abs(sent), std::abs(arrived));
-    lines.push_back(fmt::format("sent {:.10g} {}, arrived {:.10g} {}, relative mismatch {:.1e}", sent, unit, arrived,
-                                unit, scale > 0 ? std::abs(sent - arrived) / scale : 0.0));
+    const auto width = static_cast<std::size_t>(export_.field.components);
+    for (std::size_t c = 0; c < width; ++c) {
+      const double sent = source().mesh().comm.sum(exact(sent_, width, c));
+      const double arrived = source().mesh().comm.sum(exact(received_, width, c));
+      const double scale = std::max(std::abs(sent), std::abs(arrived));
+      lines.push_back(fmt::format("sent{} {:.10g} {}, arrived {:.10g} {}, relative mismatch {:.1e}", suffix(width, c),
+                                  sent, unit, arrived, unit, scale > 0 ? std::abs(sent - arrived) / scale : 0.0));
+    }
   } else {
     lines.push_back(
         fmt::format("last values: integral {:.6g} at the source, {:.6g} at the target (mismatch {:.1e}), "

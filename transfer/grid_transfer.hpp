@@ -66,9 +66,11 @@ struct TransferItem {
 /// point takes the shape functions of the source element that contains it (the smallest global id on shared faces).
 /// Totals: each source element's amount is spread by quadrature points over the shape functions of the target element
 /// that contains each (the transpose of interpolation): sums are kept to round-off; a node's total goes by the point at
-/// the node. Densities: as totals of density x volume, divided by the target's nodal volume (nodal densities are
-/// fields, so they are spread from the elements around the node). Volumes are those of the coordinates that the map was
-/// built for. Element values are constant over their element. Bitwise the same on any ranks.
+/// the node. Weights of spread amounts are balanced with the volumes on both sides, so that what is uniform arrives
+/// uniform where the meshes cover each other. Densities: as totals of density x volume, divided by the target's nodal
+/// volume (nodal densities are fields, so they are spread from the elements around the node). Volumes are those of the
+/// coordinates that the map was built for. Element values are constant over their element. Bitwise the same on any
+/// ranks.
 ///
 /// Pairings: point values are interpolated; totals are conserved; densities are conserved, or interpolated if asked for
 /// by name (their integral is then only approximated). Everything else is refused: to interpolate a total, to conserve

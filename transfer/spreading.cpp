@@ -27,14 +27,13 @@ double typical_size(const Side& side) {
 
 class Spreader {
  public:
-  Spreader(const Side& source, double target_size, bool density)
-      : source_(source), target_size_(target_size), density_(density) {}
+  Spreader(const Side& source, double spacing, bool density) : source_(source), spacing_(spacing), density_(density) {}
 
   void nodes() {
     for (const LocalIndex n : source_.items.owned) {
       const auto i = static_cast<std::size_t>(n);
       open_group(source_.items.ids[i], {&source_.coordinates[i], 1});
-      share(source_.items, i, 1.0, [](std::size_t) { return 1.0; });
+      share(source_.items, i, 1.0, 0.0, [](std::size_t) { return 1.0; });
       close_group();
     }
   }
@@ -43,7 +42,7 @@ class Spreader {
     const Corners corners = corners_of(block, e, source_.coordinates);
     const auto connectivity = block.nodes(e);
     const int nodes = static_cast<int>(connectivity.size());
-    const double volume = element_measure(block.kind, std::span(corners).first(connectivity.size()));
+    const double volume = std::max(0.0, element_measure(block.kind, std::span(corners).first(connectivity.size())));
     const std::vector<TabulatedPoint>& table = points_for(block.kind, volume);
     places_.clear(), volumes_.clear();
     double sum = 0;
@@ -60,12 +59,12 @@ class Spreader {
     }
     open_group(block.ids[static_cast<std::size_t>(e)], places_);
     if (!by_node) {
-      share(source_.items, static_cast<std::size_t>(item), density_ ? std::max(volume, 0.0) : 1.0,
+      share(source_.items, static_cast<std::size_t>(item), density_ ? volume : 1.0, volume,
             [&](std::size_t q) { return volumes_[q]; });
     } else {
       const std::array<double, max_nodes> part = node_volumes(block.kind, corners);
       for (std::size_t a = 0; a < connectivity.size(); ++a)
-        share(source_.nodes, static_cast<std::size_t>(connectivity[a]), part[a],
+        share(source_.nodes, static_cast<std::size_t>(connectivity[a]), part[a], part[a],
               [&](std::size_t q) { return volumes_[q] * table[q].value[a]; });
     }
     close_group();
@@ -75,9 +74,9 @@ class Spreader {
 
  private:
   const std::vector<TabulatedPoint>& points_for(ElementKind kind, double volume) {
-    const double ratio = volume > 0 && target_size_ > 0 ? std::cbrt(volume) / target_size_ : 1.0;
-    // Two points along each edge of a target element; the 0.01 keeps equal meshes at two in spite of round-off.
-    const int n = static_cast<int>(std::clamp(std::ceil(2 * ratio - 0.01), double{fewest}, double{most}));
+    // The 0.01 keeps equal meshes at the fewest in spite of round-off.
+    const double cells = volume > 0 && spacing_ > 0 ? std::ceil(std::cbrt(volume) / spacing_ - 0.01) : 0.0;
+    const int n = static_cast<int>(std::clamp(cells, double{fewest}, double{most}));
     std::vector<TabulatedPoint>& table = subdivisions_[{kind, n}];
     if (table.empty()) table = subdivision_points(kind, n);
     return table;
@@ -102,13 +101,13 @@ class Spreader {
   }
   /// `weight(q)` of the points of the open group, in any scale.
   template <typename Weight>
-  void share(const Items& items, std::size_t item, double amount, Weight&& weight) {
+  void share(const Items& items, std::size_t item, double amount, double volume, Weight&& weight) {
     const std::size_t count = result_.points.size() - result_.begin.back();
     double sum = 0;
     for (std::size_t q = 0; q < count; ++q) sum += weight(q);
     if (!(sum > 0)) return;
     result_.shares.push_back(
-        {items.ids[item], items.owners[item], items.at_owner[item], amount, result_.weights.size()});
+        {items.ids[item], items.owners[item], items.at_owner[item], amount, volume, result_.weights.size()});
     for (std::size_t q = 0; q < count; ++q) result_.weights.push_back(weight(q) / sum);
   }
   void close_group() {
@@ -117,7 +116,7 @@ class Spreader {
   }
 
   const Side& source_;
-  double target_size_;
+  double spacing_;
   bool density_;
   SpreadingPoints result_;
   std::map<std::pair<ElementKind, int>, std::vector<TabulatedPoint>> subdivisions_;
@@ -129,7 +128,9 @@ class Spreader {
 }  // namespace
 
 SpreadingPoints spreading_points(const Side& source, const Side& target, bool density) {
-  Spreader spreader(source, typical_size(target), density);
+  // Two points along each edge of a target element, for its nodes; three if it is the element that counts them.
+  const double points_per_edge = target.location == Location::node ? 2 : 3;
+  Spreader spreader(source, typical_size(target) / points_per_edge, density);
   if (source.location == Location::node && !density) {
     spreader.nodes();
   } else {

@@ -12,12 +12,13 @@ namespace tenon::transfer {
 
 /// Points of this rank, grouped: group g has the points begin[g] .. begin[g+1]).
 struct SpreadingPoints {
-  /// Part of a source item's amount (or, for densities, volume) that one group of points spreads.
+  /// Part of a source item's amount that one group of points spreads.
   struct Share {
     GlobalId source;
     int owner;
     LocalIndex at_owner;
-    double amount;             ///< 1 for totals, m^3 for densities
+    double amount;             ///< by which weights are multiplied: 1 for totals, the volume for densities, m^3
+    double volume;             ///< that the share fills, m^3; 0 for a point at a node
     std::size_t first_weight;  ///< in `weights`: one for each point of the group, their sum 1
   };
   std::vector<Vec3> points;

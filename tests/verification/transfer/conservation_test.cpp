@@ -110,6 +110,34 @@ TEST(Conservation, ForcesKeepTheirMomentAndVirtualWork) {
   EXPECT_NEAR(here / there, 1.0, 1e-12);
 }
 
+TEST(Conservation, UniformHeatArrivesUniform) {
+  // Heat in proportion to volume, as a uniform plastic power gives it, must not come out as a pattern of the meshes.
+  for (const bool tetrahedra : {false, true}) {
+    const Pair pair{
+        distributed(box(6, {.distortion = 0.2})),
+        distributed(box(8, {.tetrahedra = tetrahedra, .distortion = 0.15, .seed = 3}), PartitionMethod::graph),
+        Location::element, Location::node};
+    const auto heat = item_volumes(*pair.source, pair.source->coordinates, Location::element);
+    auto density = testing::transferred(pair, FieldKind::total, heat);
+    const auto volume = item_volumes(*pair.target, pair.target->coordinates, Location::node);
+    for (std::size_t i = 0; i < density.size(); ++i) density[i] /= volume[i];
+    EXPECT_LT(testing::greatest_error(*pair.target, Location::node, density, [](const Vec3&) { return 1.0; }), 2e-3);
+  }
+}
+
+TEST(Conservation, PartlyCoveredTargetsGetTheirPart) {
+  // A target twice as long as the source: what is beyond the source stays empty, and the sum is kept.
+  const Pair pair{distributed(box(4)), distributed(box(6, {.high = {2, 1, 1}}), PartitionMethod::graph),
+                  Location::element, Location::node};
+  const auto heat = item_volumes(*pair.source, pair.source->coordinates, Location::element);
+  const auto result = testing::transferred(pair, FieldKind::total, heat);
+  EXPECT_NEAR(testing::global_sum(*pair.target, Location::node, result), 1.0, 1e-14);
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    const bool beyond = pair.target->coordinates[i][0] > 1.4;
+    EXPECT_EQ(result[i] == 0.0, beyond);
+  }
+}
+
 TEST(Conservation, NodalDensityFollowsTheField) {
   // Conservation does not ruin the values: smooth densities come out with an error that falls with the mesh.
   std::array<double, 2> error{};
