@@ -25,7 +25,9 @@ struct NodeArrays {
 
 /// Codes in place of a stable step.
 inline constexpr double inverted_element = -1;   ///< volume not positive
-inline constexpr double exploding_element = -2;  ///< not a number, or deformed by more than 100 % in one step
+inline constexpr double exploding_element = -2;  ///< not a number, or strained beyond `greatest_strain` in one step
+/// Far above what the step before an inversion shows (about 1), so that an inversion is called one.
+inline constexpr double greatest_strain = 100;
 
 /// Modes of a nodal vector for four elements of a batch. Values are taken relative to node 0, which keeps digits far
 /// from the origin and makes a uniform motion exactly zero.
@@ -93,7 +95,7 @@ TENON_KERNEL ElementForces<R> element_forces(const HexModes<R>& x, const HexMode
   const R step = damped_step(frequency, p.viscosity.damping(intensity), p.hourglass.damping(scale));
   const SymmetricTensor<R> d{l.x.x, l.y.y, l.z.z, 0.5 * (l.x.y + l.y.x), 0.5 * (l.y.z + l.z.y), 0.5 * (l.z.x + l.x.z)};
   const R bad = broadcast<R>(exploding_element), inverted = broadcast<R>(inverted_element);
-  const R checked = (dt * dt) * squared_norm(d) < 1.0 ? step : bad;
+  const R checked = (dt * dt) * squared_norm(d) < greatest_strain * greatest_strain ? step : bad;
 
   const HourglassVectors<R>& q = hourglass.force;
   const auto row = [&](const R& sx, const R& sy, const R& sz, const R& q1, const R& q2, const R& q3, const R& q4) {

@@ -52,6 +52,8 @@ class Mechanics final : public Component {
   const std::vector<std::string>& warnings() const { return warnings_; }
   /// Nodal masses, kg; complete on owned nodes.
   std::span<const double> nodal_mass() const { return nodes_.mass; }
+  /// Internal forces at the present positions (resisting), N; complete on owned nodes.
+  std::span<const ForceRow> internal_force() const { return nodes_.force; }
 
  private:
   // Set-up.

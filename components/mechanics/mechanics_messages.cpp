@@ -74,7 +74,7 @@ void Mechanics::fail(double code) {
                  fmt::format("is inside out (volume {:.3g} m^3): the deformation is too large for the mesh", volume));
       else if (code == exploding_element && !std::isfinite(volume))
         consider(b, e, "has lost its numbers (not a number): the run is unstable, use a smaller time step");
-      else if (code == exploding_element && volume > 0 && !(strain < 1))
+      else if (code == exploding_element && volume > 0 && !(strain < greatest_strain * greatest_strain))
         consider(b, e,
                  fmt::format("deforms by {:.3g} in one step: the run is unstable, use a smaller time step",
                              std::sqrt(strain)));
@@ -84,9 +84,10 @@ void Mechanics::fail(double code) {
     consider(local_least_block_, local_least_.element,
              fmt::format("allows only a time step of {:.3g} s, {:.1e} of the first one: the step has collapsed", code,
                          code / first_estimate_));
-  if (options_.time_step.fixed && last_good_ > 0 && *options_.time_step.fixed > 1.05 * last_good_) {
+  if (previous_dt_ > 1.05 * last_good_ && last_good_ > 0) {
     exit = ExitCode::unstable;
-    message += fmt::format("; time_step.fixed is {:.3g} times the stable step", *options_.time_step.fixed / last_good_);
+    message += fmt::format("; the last step was {:.3g} times the stable one: check time_step.fixed and time_step.scale",
+                           previous_dt_ / last_good_);
   }
   const GlobalId lowest = comm.min(first);
   comm.throw_if_any(first == lowest && first != none ? std::optional<Error>(Error(exit, message)) : std::nullopt);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -87,6 +88,10 @@ struct MechanicsOptions {
   std::vector<InitialVelocity> initial_velocities;
   std::vector<PrescribedMotion> motions;
   std::vector<RigidWall> walls;
+
+  /// For programs and manufactured solutions; a scene cannot give it. Velocity (m/s) at a reference position (m), added
+  /// to `initial_velocities`.
+  std::function<Vec3(const Vec3&)> initial_velocity_function;
 };
 
 }  // namespace tenon

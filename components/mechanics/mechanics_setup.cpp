@@ -83,6 +83,8 @@ void Mechanics::set_velocities() {
       for (LocalIndex n = 0; n < mesh_->nodes(); ++n) set(n);
     }
   }
+  for (std::size_t n = 0; n < nodes_.size() && options_.initial_velocity_function; ++n)
+    if (nodes_.mass[n] > 0) velocity[n] = velocity[n] + options_.initial_velocity_function(mesh_->coordinates[n]);
   conditions_.start(velocity, time());
   refresh_ghosts();
 }
