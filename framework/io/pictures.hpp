@@ -17,8 +17,11 @@ struct PictureOptions {
 /// Draws `FOLDER/pictures/COMPONENT_FIELD_NNNN.png` per frame, `FOLDER/pictures/last.png` (all components and their
 /// main field in the last frame, with colour bars in the field's unit) and `FOLDER/pictures/history.png` (energies,
 /// ledger error and extrema of history.csv). Serial. Colour range of a field is that of all frames. Returns the paths.
-/// Needs an X display; where there is none, call `needs_display` first. Throws Error(file).
+/// Needs an X display; where there is none, call `ensure_display` first (before MPI is started). Throws Error(file).
 std::vector<std::string> draw_pictures(const std::string& folder, const PictureOptions& options);
+
+/// Whether DISPLAY names one. Without, VTK would end the program.
+bool has_display();
 
 /// Re-runs this program under xvfb-run if there is no display (does not return then); throws Error(file) with the
 /// package to install if xvfb-run is missing.

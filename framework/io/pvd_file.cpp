@@ -48,16 +48,46 @@ std::string format_pvd(std::span<const PvdEntry> entries) {
   return text + "  </Collection>\n</VTKFile>\n";
 }
 
-std::vector<PvdEntry> read_pvd(const std::string& path) {
-  std::istringstream text(read_text(path));
-  const vtkNew<vtkXMLDataParser> parser;
-  const VtkErrorNote errors(parser);
-  parser->SetStream(&text);
-  const bool parsed = parser->Parse() != 0;
-  vtkXMLDataElement* const root = parsed ? parser->GetRootElement() : nullptr;
-  vtkXMLDataElement* const list = root != nullptr ? root->FindNestedElementWithName("Collection") : nullptr;
-  if (list == nullptr) throw Error(ExitCode::file, fmt::format("{}: not a .pvd file; remove it to start anew", path));
+namespace {
 
+/// Parses a file, for as long as this object lives, and finds an element of this name below the root.
+class XmlFile {
+ public:
+  XmlFile(const std::string& path, const char* element) : text_(read_text(path)), errors_(parser_) {
+    parser_->SetStream(&text_);
+    vtkXMLDataElement* const root = parser_->Parse() != 0 ? parser_->GetRootElement() : nullptr;
+    list_ = root != nullptr ? root->FindNestedElementWithName(element) : nullptr;
+    if (list_ == nullptr)
+      throw Error(ExitCode::file, fmt::format("{}: damaged, or not of this kind (no {} in it)", path, element));
+  }
+  vtkXMLDataElement* list() const { return list_; }
+
+ private:
+  std::istringstream text_;
+  vtkNew<vtkXMLDataParser> parser_;
+  VtkErrorNote errors_;
+  vtkXMLDataElement* list_ = nullptr;
+};
+
+}  // namespace
+
+std::vector<std::string> read_pieces(const std::string& path) {
+  const XmlFile file(path, "PUnstructuredGrid");
+  std::vector<std::string> sources;
+  for (int i = 0; i < file.list()->GetNumberOfNestedElements(); ++i) {
+    vtkXMLDataElement* const element = file.list()->GetNestedElement(i);
+    if (std::strcmp(element->GetName(), "Piece") != 0) continue;
+    const char* const source = element->GetAttribute("Source");
+    if (source == nullptr) throw Error(ExitCode::file, fmt::format("{}: a piece has no file", path));
+    sources.emplace_back(source);
+  }
+  if (sources.empty()) throw Error(ExitCode::file, fmt::format("{}: lists no piece", path));
+  return sources;
+}
+
+std::vector<PvdEntry> read_pvd(const std::string& path) {
+  const XmlFile xml(path, "Collection");
+  vtkXMLDataElement* const list = xml.list();
   std::vector<PvdEntry> entries;
   for (int i = 0; i < list->GetNumberOfNestedElements(); ++i) {
     vtkXMLDataElement* const element = list->GetNestedElement(i);

@@ -19,6 +19,8 @@ struct PvdEntry {
 std::string format_pvd(std::span<const PvdEntry> entries);
 /// Throws Error(file) if it is not there or not a .pvd.
 std::vector<PvdEntry> read_pvd(const std::string& path);
+/// Sources of the pieces that a .pvtu lists. Throws Error(file).
+std::vector<std::string> read_pieces(const std::string& path);
 
 /// `text` as it may stand in an attribute of XML.
 std::string xml_escape(std::string_view text);
