@@ -29,3 +29,9 @@ set_target_properties(Udunits::udunits PROPERTIES IMPORTED_LOCATION ${UDUNITS_LI
 find_package(VTK 9.1 REQUIRED COMPONENTS CommonCore CommonDataModel CommonExecutionModel IOXML IOParallelXML IOExodus
   IOImage FiltersCore FiltersGeometry FiltersParallel RenderingCore RenderingOpenGL2 RenderingAnnotation RenderingFreeType
   RenderingContext2D RenderingContextOpenGL2 ChartsCore ViewsContext2D InteractionStyle)
+
+# netCDF (under VTK's Exodus) is built on the serial HDF5 and names it for linking. Our own HDF5 calls would then bind to the
+# serial library and fail at run time; the netCDF library finds its HDF5 by itself.
+if(TARGET netCDF::netcdf)
+  set_property(TARGET netCDF::netcdf PROPERTY INTERFACE_LINK_LIBRARIES "")
+endif()
