@@ -2,7 +2,7 @@
 // Linear elasticity against Hooke's law and the constrained bar (F02).
 #include <gtest/gtest.h>
 
-#include "tests/unit/materials/material_point.hpp"
+#include "material_point.hpp"
 
 namespace tenon::testing {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "tests/unit/materials/material_point.hpp"
+#include "material_point.hpp"
 
 namespace tenon::testing {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "tests/unit/materials/material_point.hpp"
+#include "material_point.hpp"
 
 namespace tenon::testing {
 namespace {

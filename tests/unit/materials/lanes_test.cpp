@@ -5,7 +5,7 @@
 #include <cstring>
 #include <random>
 
-#include "tests/unit/materials/material_point.hpp"
+#include "material_point.hpp"
 
 namespace tenon::testing {
 namespace {

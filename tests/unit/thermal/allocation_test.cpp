@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A steady step allocates nothing, with or without motion.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <new>
+
+#include "thermal_case.hpp"
+
+namespace {
+std::int64_t allocations = 0;
+}
+
+void* operator new(std::size_t bytes) {
+  ++allocations;
+  if (void* p = std::malloc(bytes)) return p;
+  throw std::bad_alloc();
+}
+void operator delete(void* p) noexcept {
+  std::free(p);
+}
+void operator delete(void* p, std::size_t) noexcept {
+  std::free(p);
+}
+
+namespace tenon::testing {
+namespace {
+
+TEST(Thermal, SteadyStepsAllocateNothing) {
+  for (const ThermalStepper stepper :
+       {ThermalStepper::explicit_euler, ThermalStepper::backward_euler, ThermalStepper::crank_nicolson}) {
+    Thermal thermal("heat", distributed(cube(4, true)), all_loads(stepper));
+    thermal.initialize();
+    const ImportPort displacement = import_port(thermal, "displacement"), heat = import_port(thermal, "heat");
+    std::vector<double> u(3 * static_cast<std::size_t>(thermal.mesh().nodes()), 0.0);
+    const std::vector<double> q(u.size() / 3, 1.0);
+    for (int i = 0; i < 2; ++i) thermal.advance(thermal.time_step());  // exchange buffers grow once
+    displacement.write(u);
+    thermal.advance(thermal.time_step());
+    const std::int64_t before = allocations;
+    for (int i = 0; i < 3; ++i) {
+      for (double& v : u) v += 1e-6;
+      displacement.write(u);
+      heat.write(q);
+      thermal.advance(thermal.time_step());
+    }
+    EXPECT_EQ(allocations - before, 0) << static_cast<int>(stepper);
+  }
+}
+
+}  // namespace
+}  // namespace tenon::testing

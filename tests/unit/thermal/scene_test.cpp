@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The scene block of heat conduction: what it gives, and what it refuses.
+#include <gtest/gtest.h>
+
+#include "components/thermal/scene_block.hpp"
+
+namespace tenon {
+namespace {
+
+struct Read {
+  ThermalOptions options;
+  scene::Diagnostics diagnostics;
+};
+
+Read read(const std::string& text) {
+  MeshSummary mesh;
+  mesh.source = "bar.msh";
+  mesh.blocks = {{"bar", 1, 10, ElementKind::tet4}, {"foot", 2, 5, ElementKind::hex8}};
+  mesh.node_sets = {{"top", 1, 3}, {"bottom", 2, 3}};
+  mesh.side_sets = {{"skin", 1, 9}};
+  MaterialDescription copper{"copper", 8960, {}, {}, ThermalProperties{386, 383, 300, 0.9}};
+  MaterialDescription wood{"wood", 500, {}, {}, {}};
+  Read result;
+  const scene::Value value = parse_scene(text, "scene.yaml", {}, thermal_schema(), result.diagnostics);
+  if (!result.diagnostics.any())
+    result.options = read_thermal(value, mesh, {{"copper", copper}, {"wood", wood}}, result.diagnostics);
+  return result;
+}
+
+TEST(ThermalScene, ReadsEverything) {
+  const Read r = read(R"(
+mesh: fine
+material: copper
+stepper: crank_nicolson
+time_step: {fixed: 2 us}
+solver: {tolerance: 1e-10}
+initial_temperature: 20 degC
+initial_temperatures:
+  - {node_set: top, temperature: 400 K, gradient: [0, 0, 1 K/mm]}
+prescribed_temperatures:
+  - {node_set: bottom, temperature: {table: [[0 s, 300 K], [1 s, 400 K]]}}
+fluxes:
+  - {side_set: skin, flux: 1 kW/m^2}
+convection:
+  - {side_set: skin, coefficient: 25 W/(m^2 K), ambient: 293.15 K}
+sources:
+  - {block: foot, power: 1 MW/m^3}
+)");
+  ASSERT_FALSE(r.diagnostics.any()) << r.diagnostics.errors().front();
+  const ThermalOptions& o = r.options;
+  ASSERT_EQ(o.blocks.size(), 2u);
+  EXPECT_EQ(o.blocks[1].block, "foot");
+  EXPECT_EQ(o.blocks[1].conductivity, 386);
+  EXPECT_EQ(o.blocks[0].density, 8960);
+  EXPECT_EQ(o.blocks[0].reference_temperature, 300);
+  EXPECT_EQ(o.stepper, ThermalStepper::crank_nicolson);
+  EXPECT_NEAR(o.fixed_step.value(), 2e-6, 1e-18);
+  EXPECT_EQ(o.tolerance, 1e-10);
+  ASSERT_EQ(o.initial.size(), 2u);
+  EXPECT_NEAR(o.initial[0].value, 293.15, 1e-9);
+  EXPECT_EQ(o.initial[1].node_set, "top");
+  EXPECT_NEAR(o.initial[1].gradient[2], 1000, 1e-9);
+  EXPECT_EQ(o.prescribed.at(0).temperature(0.5), 350);
+  EXPECT_EQ(o.fluxes.at(0).flux(0), 1000);
+  EXPECT_EQ(o.convection.at(0).coefficient, 25);
+  EXPECT_EQ(o.sources.at(0).power(3), 1e6);
+}
+
+TEST(ThermalScene, ExplicitNeedsNoStep) {
+  const Read r = read("mesh: fine\nblocks: {bar: {material: copper}, foot: {material: copper}}\n");
+  ASSERT_FALSE(r.diagnostics.any()) << r.diagnostics.errors().front();
+  EXPECT_EQ(r.options.stepper, ThermalStepper::explicit_euler);
+  EXPECT_FALSE(r.options.fixed_step);
+}
+
+void expect_refused(const std::string& text, const std::string& words) {
+  const Read r = read("mesh: fine\n" + text);
+  ASSERT_TRUE(r.diagnostics.any()) << text;
+  EXPECT_NE(r.diagnostics.errors().front().find(words), std::string::npos) << r.diagnostics.errors().front();
+}
+
+TEST(ThermalScene, RefusesUnknownNamesWithTheNearest) {
+  expect_refused("material: coper\n", "'copper'");
+  expect_refused("material: wood\n", "no thermal properties");
+  expect_refused("blocks: {bar: {material: copper}}\n", "block 'foot' of the mesh has no material");
+  expect_refused("material: copper\nblocks: {bra: {material: copper}}\n", "'bar'");
+  expect_refused("material: copper\nfluxes: [{side_set: skim, flux: 1}]\n", "'skin'");
+  expect_refused("material: copper\nprescribed_temperatures: [{node_set: botom, temperature: 1}]\n", "'bottom'");
+  expect_refused("material: copper\nsources: [{block: fot, power: 1}]\n", "'foot'");
+}
+
+TEST(ThermalScene, RefusesWhatMakesNoSense) {
+  expect_refused("material: copper\nstepper: backward_euler\n", "needs a step");
+  expect_refused("material: copper\ntime_step: {scale: 1.5}\n", "scale");
+  expect_refused("material: copper\nconvection: [{side_set: skin, coefficient: -1, ambient: 1}]\n", "coefficient");
+  expect_refused("material: copper\ninitial_temperature: 5 m\n", "initial_temperature");
+}
+
+}  // namespace
+}  // namespace tenon
