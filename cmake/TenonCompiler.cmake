@@ -31,7 +31,6 @@ if(CCACHE_PROGRAM)
   set(CMAKE_C_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
   set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
 endif()
-find_program(LLD_PROGRAM ld.lld)
-if(LLD_PROGRAM)
-  add_link_options(-fuse-ld=lld)
-endif()
+
+# The compiler's own linker, not lld: lld 14 enters the empty cold part that g++ splits off some functions into the
+# table of the unwinder in place of its neighbour, and a throw there ends the program (llvm issue 218124).
