@@ -176,7 +176,7 @@ class GmshReader {
   void add_blocks(const Group& group, const std::string& name, std::int64_t label) {
     for (const auto& [kind, members] : group.kinds) {
       BlockData block{name, label, kind, {}, {}};
-      if (group.kinds.size() > 1) block.name += "_" + std::string(topology(kind).name);
+      if (group.kinds.size() > 1) block.name.append("_").append(topology(kind).name);
       for (const GmshElements* chunk : members) {
         block.labels.insert(block.labels.end(), chunk->labels.begin(), chunk->labels.end());
         const auto each = static_cast<std::ptrdiff_t>(chunk->nodes_each);

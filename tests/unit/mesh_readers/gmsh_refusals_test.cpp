@@ -39,7 +39,7 @@ std::vector<Case> cases() {
       {"too_large", msh22("4\n1 0 0 1e999\n2 1 0 0\n3 0 1 0\n4 0 0 1\n", tet), {"node 1", "not finite"}},
       {"second_order",
        msh22(four, "1\n1 11 2 0 1 1 2 3 4 5 6 7 8 9 10\n"),
-       {"line 12", "10-node tetrahedron", "Mesh.ElementOrder = 1"}},
+       {"line 13", "10-node tetrahedron", "Mesh.ElementOrder = 1"}},
       {"unknown_type", msh22(four, "1\n1 4242 2 0 1 1 2 3 4\n"), {"type 4242"}},
       {"negative_count", msh22("-4\n1 0 0 0\n", tet), {"impossible number of nodes -4"}},
       {"huge_count", msh22("999999999999\n1 0 0 0\n", tet), {"impossible number of nodes"}},
