@@ -252,6 +252,7 @@ BuiltScene build_simulation(const Communicator& comm, Log& log, const LoadedScen
 
   BuiltScene built;
   built.simulation = std::make_unique<Simulation>(comm, log, start, end);
+  built.simulation->limit_steps(scene.value.integer("maximum_steps"));
   distribute_to(comm, meshes, planned, *built.simulation);
   add_transfers(scene, *built.simulation, diagnostics);
   built.output = read_output(scene, *built.simulation, diagnostics);

@@ -32,6 +32,13 @@ void add_scene_options(CLI::App& command, tenon::RunArguments& arguments) {
       ->allow_extra_args(false);
 }
 
+/// Help or a complaint about the command line, from one rank however many were started.
+int say_once(int argc, char** argv, const CLI::App& app, const CLI::ParseError& problem) {
+  const tenon::MpiEnvironment environment(argc, argv);
+  if (Communicator::world().rank() == 0) return app.exit(problem) == 0 ? 0 : static_cast<int>(ExitCode::usage);
+  return problem.get_exit_code() == 0 ? 0 : static_cast<int>(ExitCode::usage);
+}
+
 int draw(int argc, char** argv, const std::string& folder, const tenon::PictureOptions& options) {
   try {
     tenon::ensure_display(argc, argv);
@@ -86,7 +93,7 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {
-    return app.exit(problem) == 0 ? 0 : static_cast<int>(ExitCode::usage);
+    return say_once(argc, argv, app, problem);
   }
   pictures.every_frame = !last_only;
 

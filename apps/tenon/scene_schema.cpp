@@ -74,6 +74,11 @@ Schema scene_schema() {
   s.text("title", "One line that says what is simulated.");
   s.quantity("start_time", "s", "Time at the start.", "0 s");
   s.required_quantity("end_time", "s", "Time at the end.");
+  s.integer(
+      "maximum_steps",
+      "A run that would need more steps is refused (exit code 2), and one that has taken so many stops: an end time "
+      "with a wrong unit would run for years.",
+      "20000000", {1, 1e15, false, false});
   s.variants("meshes", scene::Key::Type::named, mesh_variants(), "Meshes by name: files or generated shapes.")
       .required();
   s.named("materials", material_schema(), "Materials by name.").required();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "framework/simulation/simulation.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <limits>
 
@@ -47,7 +49,22 @@ void Simulation::initialize(const CheckpointReader* checkpoint) {
         if (coupling->runs_at_start()) coupling->run();
     }
   }
+  refuse_too_many_steps();
   for (const auto& observer : observers_) observer->start(*this, checkpoint != nullptr);
+}
+
+void Simulation::refuse_too_many_steps() {
+  if (done()) return;
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const auto& component : components_) smallest = std::min(smallest, component->time_step());
+  const double needed = (end_time_ - time_) / smallest;
+  if (needed <= static_cast<double>(maximum_steps_ - steps_)) return;
+  throw Error(
+      ExitCode::usage,
+      fmt::format(
+          "the run from {:.6g} s to {:.6g} s would take about {:.3g} steps of {:.3g} s, more than maximum_steps "
+          "({}): check the units of end_time, or raise maximum_steps",
+          time_, end_time_, needed, smallest, maximum_steps_));
 }
 
 void Simulation::run() {
@@ -60,6 +77,12 @@ void Simulation::run() {
 }
 
 void Simulation::step() {
+  if (steps_ >= maximum_steps_)
+    throw Error(
+        ExitCode::unstable,
+        fmt::format("{} steps were taken up to {:.6g} s and the end is at {:.6g} s: the time step has shrunk; look "
+                    "at the limiting element in the log, or raise maximum_steps and continue with --restart latest",
+                    steps_, time_, end_time_));
   choose_leader();
   dt_ = leader_step();
   leader_->advance(dt_);

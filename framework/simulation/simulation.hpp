@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -43,8 +44,11 @@ class Simulation {
   Coupling& add(std::unique_ptr<Coupling> coupling);
   Observer& add(std::unique_ptr<Observer> observer);
 
-  /// Collective. Prepares everything; `checkpoint` continues an earlier run.
+  /// Collective. Prepares everything; `checkpoint` continues an earlier run. Throws Error(usage) if the smallest step
+  /// would take more than the greatest number of steps to the end.
   void initialize(const CheckpointReader* checkpoint = nullptr);
+  /// Local. A run that would need more steps than this is refused by `initialize`, and ends when it has taken so many.
+  void limit_steps(std::int64_t maximum) { maximum_steps_ = maximum; }
   /// Collective. One step of the leader. Must not be called when done().
   void step();
   /// Collective. Steps until done or until a stop is requested. If a step throws, observers keep what they can first.
@@ -81,11 +85,12 @@ class Simulation {
   bool due(Component& follower);
   void run_couplings(const Component* source, const Component* target, CouplingSchedule schedule);
   void load(const CheckpointReader& file);
+  void refuse_too_many_steps();
 
   Communicator comm_;
   Log& log_;
   double start_time_, end_time_, time_, dt_ = 0;
-  std::int64_t steps_ = 0;
+  std::int64_t steps_ = 0, maximum_steps_ = std::numeric_limits<std::int64_t>::max();
   bool stopped_ = false;
   StopRequest* stop_ = nullptr;
   PhaseTimers timers_;
