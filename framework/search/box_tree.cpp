@@ -49,11 +49,36 @@ bool is_finite(const Vec3& x) {
   return std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]);
 }
 
-// Morton codes of 16 bits a direction in cubic cells; centres that are not finite come first.
-std::vector<Coded> morton_codes(std::span<const Box> boxes) {
+// Bounds of all centres that are finite.
+Box bounds_of_centres(std::span<const Box> boxes) {
   Box bounds;
   for (const Box& box : boxes)
     if (const Vec3 x = centre(box); is_finite(x)) bounds.add(x);
+  return bounds;
+}
+
+// Place of a cell on the Hilbert curve through 2^48 cells, interleaved (Skilling's transposition [Ski04]).
+std::uint64_t hilbert_code(std::array<std::uint32_t, 3> x) {
+  constexpr std::uint32_t top = 1u << 15;
+  for (std::uint32_t bit = top; bit > 1; bit >>= 1) {
+    const std::uint32_t below = bit - 1;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::uint32_t swapped = (x[0] ^ x[c]) & below;
+      const std::uint32_t invert = x[c] & bit ? below : 0, exchange = x[c] & bit ? 0 : swapped;
+      x[0] ^= invert | exchange;
+      x[c] ^= exchange;
+    }
+  }
+  x[1] ^= x[0];
+  x[2] ^= x[1];
+  std::uint32_t flip = 0;
+  for (std::uint32_t bit = top; bit > 1; bit >>= 1) flip ^= x[2] & bit ? bit - 1 : 0;
+  return spread(x[0] ^ flip) << 2 | spread(x[1] ^ flip) << 1 | spread(x[2] ^ flip);
+}
+
+// Hilbert codes of 16 bits a direction in cubic cells; centres that are not finite come first. Unlike Morton's, this
+// curve does not jump, so neighbours along it make compact groups.
+std::vector<Coded> hilbert_codes(std::span<const Box> boxes, const Box& bounds) {
   double extent = 0;
   if (!bounds.empty())
     for (std::size_t c = 0; c < 3; ++c) extent = std::max(extent, bounds.high[c] - bounds.low[c]);
@@ -61,13 +86,11 @@ std::vector<Coded> morton_codes(std::span<const Box> boxes) {
   std::vector<Coded> codes(boxes.size());
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     const Vec3 x = centre(boxes[i]);
-    std::uint64_t code = 0;
+    std::array<std::uint32_t, 3> cell{};
     if (is_finite(x))
-      for (std::size_t c = 0; c < 3; ++c) {
-        const double cell = std::clamp((x[c] - bounds.low[c]) * scale, 0.0, 65535.0);
-        code |= spread(static_cast<std::uint64_t>(cell)) << c;
-      }
-    codes[i] = {code, static_cast<LocalIndex>(i)};
+      for (std::size_t c = 0; c < 3; ++c)
+        cell[c] = static_cast<std::uint32_t>(std::clamp((x[c] - bounds.low[c]) * scale, 0.0, 65535.0));
+    codes[i] = {hilbert_code(cell), static_cast<LocalIndex>(i)};
   }
   return codes;
 }
@@ -85,36 +108,12 @@ void sort_codes(std::vector<Coded>& codes) {
   }
 }
 
-struct FloatBox {
-  std::array<float, 3> low, high;
-};
-
-FloatBox rounded_outward(const Box& box) {
-  FloatBox f;
-  for (std::size_t c = 0; c < 3; ++c) {
-    f.low[c] = rounded_down(box.low[c]);
-    f.high[c] = rounded_up(box.high[c]);
-  }
-  return f;
-}
-
-// Bit k is set if child k overlaps. Written so that the compiler compares all eight at once.
-template <typename Group>
-unsigned overlap_mask(const Group& group, const FloatBox& box) {
-  unsigned mask = 0;
-  for (unsigned k = 0; k < 8; ++k) {
-    const bool apart = !(group.low[0][k] <= box.high[0]) | !(box.low[0] <= group.high[0][k]) |
-                       !(group.low[1][k] <= box.high[1]) | !(box.low[1] <= group.high[1][k]) |
-                       !(group.low[2][k] <= box.high[2]) | !(box.low[2] <= group.high[2][k]);
-    mask |= apart ? 0u : 1u << k;
-  }
-  return mask;
-}
-
 }  // namespace
 
 void BoxTree::build(std::span<const Box> boxes) {
-  std::vector<Coded> codes = morton_codes(boxes);
+  const Box bounds = bounds_of_centres(boxes);
+  origin_ = bounds.empty() ? Vec3{} : centre(bounds);
+  std::vector<Coded> codes = hilbert_codes(boxes, bounds);
   sort_codes(codes);
   order_.resize(boxes.size());
   boxes_.resize(boxes.size());
@@ -134,8 +133,8 @@ void BoxTree::build(std::span<const Box> boxes) {
   }
   Group empty;
   for (std::size_t c = 0; c < 3; ++c) {
-    empty.low[c].fill(float_infinity);
-    empty.high[c].fill(-float_infinity);
+    empty.low[c] = Eight{} + float_infinity;
+    empty.high[c] = Eight{} - float_infinity;
   }
   groups_.assign(total, empty);
   const auto put = [&](Group& group, std::size_t child, const FloatBox& box) {
@@ -153,12 +152,34 @@ void BoxTree::build(std::span<const Box> boxes) {
       const Group& group = groups_[below + child];
       FloatBox box;
       for (std::size_t c = 0; c < 3; ++c) {
-        box.low[c] = *std::min_element(group.low[c].begin(), group.low[c].end());
-        box.high[c] = *std::max_element(group.high[c].begin(), group.high[c].end());
+        box.low[c] = group.low[c][0];
+        box.high[c] = group.high[c][0];
+        for (std::size_t k = 1; k < fan_out; ++k) {
+          box.low[c] = std::min(box.low[c], group.low[c][k]);
+          box.high[c] = std::max(box.high[c], group.high[c][k]);
+        }
       }
       put(groups_[here + child / fan_out], child % fan_out, box);
     }
   }
+}
+
+// Subtraction rounds monotonically, so what touches still touches.
+BoxTree::FloatBox BoxTree::rounded_outward(const Box& box) const {
+  FloatBox f;
+  for (std::size_t c = 0; c < 3; ++c) {
+    f.low[c] = rounded_down(box.low[c] - origin_[c]);
+    f.high[c] = rounded_up(box.high[c] - origin_[c]);
+  }
+  return f;
+}
+
+// Sets byte k of `hits` to 0xff if child k overlaps, else to 0.
+void BoxTree::overlaps(const Group& group, const FloatBox& box, std::uint64_t& hits) {
+  typedef std::int8_t EightBytes __attribute__((vector_size(fan_out)));
+  const auto together = (group.low[0] <= box.high[0]) & (group.high[0] >= box.low[0]) & (group.low[1] <= box.high[1]) &
+                        (group.high[1] >= box.low[1]) & (group.low[2] <= box.high[2]) & (group.high[2] >= box.low[2]);
+  hits = std::bit_cast<std::uint64_t>(__builtin_convertvector(together, EightBytes));
 }
 
 template <typename Hit>
@@ -167,25 +188,26 @@ void BoxTree::visit_overlapping(const Box& box, Hit&& hit) const {
   const FloatBox query = rounded_outward(box);
   // One entry per level: the group under visit and which of its children are still to come.
   std::array<LocalIndex, max_levels> visited;
-  std::array<unsigned, max_levels> left;
+  std::array<std::uint64_t, max_levels> left;
   int level = levels_ - 1;
   visited[static_cast<std::size_t>(level)] = 0;
-  left[static_cast<std::size_t>(level)] = overlap_mask(group(level, 0), query);
+  overlaps(group(level, 0), query, left[static_cast<std::size_t>(level)]);
   while (level < levels_) {
     const auto l = static_cast<std::size_t>(level);
     if (left[l] == 0) {
       ++level;
       continue;
     }
-    const LocalIndex child = fan_out * visited[l] + std::countr_zero(left[l]);
-    left[l] &= left[l] - 1;
+    const int bit = std::countr_zero(left[l]);
+    left[l] &= ~(std::uint64_t{0xff} << bit);
+    const LocalIndex child = fan_out * visited[l] + bit / 8;
     if (level == 0) {
       hit(static_cast<std::size_t>(child));
       continue;
     }
     --level;
     visited[l - 1] = child;
-    left[l - 1] = overlap_mask(group(level, child), query);
+    overlaps(group(level, child), query, left[l - 1]);
   }
 }
 
@@ -199,22 +221,6 @@ void BoxTree::overlapping(const Box& box, std::vector<LocalIndex>& found) const 
   visit_overlapping(box, [&](std::size_t sorted) {
     if (boxes_[sorted].overlaps(box)) found.push_back(order_[sorted]);
   });
-}
-
-std::array<double, BoxTree::fan_out> BoxTree::squared_distances(const Group& group, const Vec3& point) const {
-  std::array<double, fan_out> squared;
-  for (std::size_t k = 0; k < fan_out; ++k) {
-    double sum = 0;
-    for (std::size_t c = 0; c < 3; ++c) {
-      const double below = static_cast<double>(group.low[c][k]) - point[c];
-      const double above = point[c] - static_cast<double>(group.high[c][k]);
-      const double greater = below > above ? below : above;
-      const double apart = greater > 0 ? greater : 0;
-      sum += apart * apart;
-    }
-    squared[k] = sum;
-  }
-  return squared;
 }
 
 }  // namespace tenon

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Local search among boxes: a packed tree over Morton-sorted boxes. Serves transfer, contact and particles.
+// Local search among boxes: a packed tree over boxes sorted along a space-filling curve. Serves transfer, contact and
+// particles.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <vector>
@@ -15,7 +17,7 @@
 
 namespace tenon {
 
-/// An implicit tree of fixed fan-out over boxes sorted by the Morton code of their centres; flat arrays, no
+/// An implicit tree of fixed fan-out over boxes sorted along the Hilbert curve of their centres [KF93]; flat arrays, no
 /// pointers. Boxes may differ in size by any factor, coincide, or be points. A box with a coordinate that is not a
 /// number is never found. Queries may run in several threads at once and allocate nothing but room in `found`.
 class BoxTree {
@@ -43,9 +45,15 @@ class BoxTree {
  private:
   static constexpr int fan_out = 8;
   static constexpr int max_levels = 11;  // 8^11 > 2^31
-  /// Eight children, coordinate by coordinate, rounded outward; those that are not there are empty.
+  /// Eight numbers that are compared and added at once.
+  typedef float Eight __attribute__((vector_size(fan_out * sizeof(float))));
+  /// Eight children, coordinate by coordinate, relative to the origin, rounded outward; those that are not there are
+  /// empty.
   struct Group {
-    std::array<std::array<float, fan_out>, 3> low, high;
+    Eight low[3], high[3];
+  };
+  struct FloatBox {
+    std::array<float, 3> low, high;
   };
   struct Candidate {
     double distance;  // from the point to the box of the child, never too great
@@ -53,8 +61,12 @@ class BoxTree {
     LocalIndex child;
   };
 
-  const Group& group(int level, LocalIndex child) const { return groups_[level_begin_[level] + child]; }
-  std::array<double, fan_out> squared_distances(const Group& group, const Vec3& point) const;
+  const Group& group(int level, LocalIndex child) const {
+    return groups_[level_begin_[static_cast<std::size_t>(level)] + static_cast<std::size_t>(child)];
+  }
+  FloatBox rounded_outward(const Box& box) const;
+  static void overlaps(const Group& group, const FloatBox& box, std::uint64_t& hits);
+  static void squared_distances(const Group& group, const FloatBox& point, Eight& squared);
   template <typename Hit>
   void visit_overlapping(const Box& box, Hit&& hit) const;
 
@@ -65,12 +77,26 @@ class BoxTree {
   std::vector<Group> groups_;
   std::array<std::size_t, max_levels> level_begin_{};
   int levels_ = 0;
+  Vec3 origin_{};  // floats hold what is relative to it, so that they resolve bodies far from zero
 };
+
+inline void BoxTree::squared_distances(const Group& group, const FloatBox& point, Eight& squared) {
+  squared = Eight{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    const Eight below = group.low[c] - point.high[c], above = point.low[c] - group.high[c];
+    const Eight greater = below > above ? below : above;
+    const Eight apart = greater > 0 ? greater : Eight{};
+    squared += apart * apart;
+  }
+}
 
 template <typename Distance>
 double BoxTree::nearest(const Vec3& point, double limit, Distance&& distance) const {
   constexpr double infinity = std::numeric_limits<double>::infinity();
+  constexpr double greatest_float = static_cast<double>(std::numeric_limits<float>::max());
   constexpr double slack = 1e-14;
+  if (!(point[0] == point[0] && point[1] == point[1] && point[2] == point[2])) return infinity;
+  const FloatBox query = rounded_outward({point, point});
   const double extent = std::max({std::abs(point[0]), std::abs(point[1]), std::abs(point[2])});
   double best = infinity, reach = 0;
   const auto shorten = [&](double to) {
@@ -94,11 +120,14 @@ double BoxTree::nearest(const Vec3& point, double limit, Distance&& distance) co
       }
       continue;
     }
-    const std::array<double, fan_out> squared = squared_distances(group(here.level, here.child), point);
+    const Group& children = group(here.level, here.child);
+    Eight squared;
+    squared_distances(children, query, squared);
     const std::size_t first = waiting;
     for (int k = 0; k < fan_out; ++k) {
-      const double d = std::sqrt(squared[static_cast<std::size_t>(k)]);
-      if (!(d <= reach)) continue;
+      // Less by more than the rounding of the floats; distances beyond their range count as its end.
+      const double d = 0.999999 * std::sqrt(std::min(static_cast<double>(squared[k]), greatest_float));
+      if (!(d <= reach) || !(children.low[0][k] <= children.high[0][k])) continue;
       std::size_t place = waiting++;  // the nearest goes on top
       for (; place > first && stack[place - 1].distance < d; --place) stack[place] = stack[place - 1];
       stack[place] = {d, here.level - 1, fan_out * here.child + k};
