@@ -2,6 +2,7 @@
 #include "components/mechanics/hex8_block.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "components/mechanics/hex8_volume.hpp"
 
@@ -13,12 +14,14 @@ Hex8Block::Hex8Block(const ElementBlock& block, std::span<const Vec3> coordinate
   connectivity.resize(n);
   stresses.resize(n);
   for (ElementValues* values :
-       {&mass, &temperature, &temperature_used, &plastic_work, &hourglass_energy, &viscosity_energy})
+       {&mass, &reference_size, &temperature, &temperature_used, &plastic_work, &hourglass_energy, &viscosity_energy})
     values->resize(n);
   for (LocalIndex e = 0; e < static_cast<LocalIndex>(n) * lanes; ++e) {
     const std::span<const LocalIndex> nodes = block.nodes(std::min(e, size_ - 1));
     for (std::size_t i = 0; i < 8; ++i) connectivity[static_cast<std::size_t>(e / lanes)].node[i][e % lanes] = nodes[i];
-    value_of(mass, e) = material.density * hex8_volume(nodes, coordinates);
+    const double volume = hex8_volume(nodes, coordinates);
+    value_of(mass, e) = material.density * volume;
+    value_of(reference_size, e) = std::cbrt(volume);
   }
 }
 
@@ -31,7 +34,7 @@ void Hex8Block::fill_padding() {
 }
 
 std::int64_t Hex8Block::memory() const {
-  return static_cast<std::int64_t>(batches() * (sizeof(HexConnectivity) + sizeof(Batch<6>) + 6 * sizeof(Batch<1>)));
+  return static_cast<std::int64_t>(batches() * (sizeof(HexConnectivity) + sizeof(Batch<6>) + 7 * sizeof(Batch<1>)));
 }
 
 }  // namespace tenon

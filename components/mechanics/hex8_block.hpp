@@ -60,6 +60,7 @@ class Hex8Block {
   std::vector<HexConnectivity> connectivity;
   std::vector<Batch<6>> stresses;                    ///< Cauchy, Pa
   ElementValues mass;                                ///< kg
+  ElementValues reference_size;                      ///< cube root of the undeformed volume, m
   ElementValues temperature;                         ///< K
   ElementValues temperature_used;                    ///< K, at the last update of the stress
   ElementValues plastic_work;                        ///< J, since the start

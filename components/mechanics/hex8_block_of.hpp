@@ -105,7 +105,8 @@ class Hex8BlockOf final : public Hex8Block {
     HourglassBatch none;
     HourglassBatch& hourglass = H::state_size > 0 ? hourglass_state_[b] : none;
     const ElementForces<Pack> f =
-        element_forces(x, v, load_tensor(stresses[b], lane), load(mass[b][0] + lane), parameters_, hourglass, lane, dt);
+        element_forces(x, v, load_tensor(stresses[b], lane),
+                       {load(mass[b][0] + lane), load(reference_size[b][0] + lane)}, parameters_, hourglass, lane, dt);
     store_rows(f, rows);
     if (dt > 0) add_energies(b, lane, f, plastic_work_density);
     return f.step;

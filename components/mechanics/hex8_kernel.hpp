@@ -78,20 +78,20 @@ struct HexParameters {
 /// stress.
 template <typename R, typename H, typename HourglassState>
 TENON_KERNEL ElementForces<R> element_forces(const HexModes<R>& x, const HexModes<R>& v,
-                                             const SymmetricTensor<R>& stress, const R& mass, const HexParameters<H>& p,
-                                             HourglassState& state, int lane, double dt) {
+                                             const SymmetricTensor<R>& stress, const ElementReference<R>& reference,
+                                             const HexParameters<H>& p, HourglassState& state, int lane, double dt) {
   const MeanGradient<R> b = mean_gradient(x);
   const Tensor<R> l = velocity_gradient(v, b);
   const R volume = (1.0 / 192.0) * b.volume_192, inverse_volume = 192.0 / b.volume_192;
   const SymmetricTensor<R> g = gradient_products(b);
-  const ElementScale<R> scale = element_scale(mass, volume, trace(g), p.lambda + 2 * p.shear);
+  const ElementScale<R> scale = element_scale(reference, volume, trace(g), p.lambda + 2 * p.shear);
 
   const R rate = l.x.x + l.y.y + l.z.z;
   const R intensity = p.viscosity.intensity(scale, rate);
   const R viscous = p.viscosity.stress(scale, intensity, rate);
   const HourglassResult<R> hourglass = p.hourglass.template step<R>(hourglass_rates(x, v, l), scale, state, lane, dt);
 
-  const R frequency = frequency_squared_bound(g, p.lambda, p.shear, mass, volume);
+  const R frequency = frequency_squared_bound(g, p.lambda, p.shear, reference.mass, volume);
   const R step = damped_step(frequency, p.viscosity.damping(intensity), p.hourglass.damping(scale));
   const SymmetricTensor<R> d{l.x.x, l.y.y, l.z.z, 0.5 * (l.x.y + l.y.x), 0.5 * (l.y.z + l.z.y), 0.5 * (l.z.x + l.x.z)};
   const R bad = broadcast<R>(exploding_element), inverted = broadcast<R>(inverted_element);

@@ -34,15 +34,30 @@ struct ElementScale {
   R mass;       ///< kg
   R volume;     ///< m^3
   R trace_g;    ///< sum of b_I . b_I, m^4
-  R wave_rate;  ///< c/L: dilatational wave speed over length of the element, 1/s
+  R wave_rate;  ///< c/L: dilatational wave speed over the shortest length of the element, 1/s
+  R size_rate;  ///< c/V0^(1/3): the same over its size before deformation, 1/s
   R modulus;    ///< lambda + 2 mu, Pa
+};
+
+/// What an element keeps of its undeformed state.
+template <typename R>
+struct ElementReference {
+  R mass;  ///< kg
+  R size;  ///< V0^(1/3), m
 };
 
 /// L^2 = 3 V^2/(2 tr G): the harmonic mean of the squared edges of a box, so the shortest edge rules; h for a cube.
 /// c/L = sqrt((lambda + 2 mu)/rho)/L = sqrt(2 (lambda + 2 mu) tr G/(3 m V)).
 template <typename R>
-TENON_KERNEL ElementScale<R> element_scale(const R& mass, const R& volume, const R& trace_g, double modulus) {
-  return {mass, volume, trace_g, square_root((2.0 / 3.0 * modulus) * trace_g / (mass * volume)), broadcast<R>(modulus)};
+TENON_KERNEL ElementScale<R> element_scale(const ElementReference<R>& reference, const R& volume, const R& trace_g,
+                                           double modulus) {
+  const R stiffness = modulus / reference.mass;
+  return {reference.mass,
+          volume,
+          trace_g,
+          square_root((2.0 / 3.0) * stiffness * trace_g / volume),
+          square_root(stiffness * volume) / reference.size,
+          broadcast<R>(modulus)};
 }
 
 /// Generalised forces Q_alpha, and the energy that they took up in the step, J.
@@ -96,8 +111,9 @@ struct NoHourglass {
   }
 };
 
-/// [FB81] viscous form: Q = coefficient m c/(4 L) gamma . v, the size of LS-DYNA's type 1 on a cube (rho c V^(2/3)/4).
-/// It has no memory, so it cannot store what plastic flow should have dissipated: right for plasticity.
+/// [FB81] viscous form: Q = coefficient m c/(4 V0^(1/3)) gamma . v, that is rho c V^(2/3)/4 as usual while the volume
+/// changes little. With the shortest length instead, elements flattened by plastic flow would be held three times too
+/// hard. It has no memory, so it cannot store what plastic flow should have dissipated: right for plasticity.
 struct ViscousHourglass {
   static constexpr int state_size = 0;
   double coefficient = 0.1;
@@ -107,14 +123,14 @@ struct ViscousHourglass {
   template <typename R>
   TENON_KERNEL HourglassResult<R> step(const HourglassVectors<R>& rate, const ElementScale<R>& s, Batch<1>&, int,
                                        double dt) const {
-    const R c = (0.25 * coefficient) * s.mass * s.wave_rate;
+    const R c = (0.25 * coefficient) * s.mass * s.size_rate;
     return {{c * rate.eta_zeta, c * rate.zeta_xi, c * rate.xi_eta, c * rate.xi_eta_zeta},
             dt * (c * product(rate, rate))};
   }
   /// 8 nodes of mass m/8, |gamma|^2 = 8: 64 c/m.
   template <typename R>
   TENON_KERNEL R damping(const ElementScale<R>& s) const {
-    return (16.0 * coefficient) * s.wave_rate;
+    return (16.0 * coefficient) * s.size_rate;
   }
 };
 
