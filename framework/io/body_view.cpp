@@ -19,32 +19,14 @@
 #include <vtkProperty2D.h>
 #include <vtkTextProperty.h>
 
+#include "framework/io/color_bar.hpp"
+
 namespace tenon {
 
 namespace {
 
-constexpr double least_face_with_edges = 6;  // pixels across; below, edges would hide the colours
+constexpr double least_face_with_edges = 7;  // pixels across; below, edges would hide the colours
 constexpr double bar_thickness = 0.028;      // of the height of the window
-
-/// Multiples of 1, 2 or 5 x 10^n inside the range, some five of them.
-std::vector<double> ticks(double low, double high) {
-  const double raw = (high - low) / 5, power = std::pow(10, std::floor(std::log10(raw)));
-  double step = 10 * power;
-  for (const double factor : {5.0, 2.0, 1.0})
-    if (factor * power >= raw) step = factor * power;
-  std::vector<double> values;
-  for (double k = std::ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; ++k) values.push_back(k * step);
-  return values;
-}
-
-/// Enough digits to tell neighbouring ticks apart, no more.
-std::string tick_format(const std::vector<double>& values) {
-  double greatest = 0;
-  for (const double v : values) greatest = std::max(greatest, std::abs(v));
-  const double step = values.size() > 1 ? values[1] - values[0] : greatest;
-  if (!(greatest > 0) || greatest >= 1e6 || step < 1e-4) return "%-#.3g";
-  return fmt::format("%.{}f", std::max(0, static_cast<int>(std::ceil(-std::log10(step) - 1e-9))));
-}
 
 /// From the body to the eye and up on the picture: z is up; a body that is flat in z is seen from above.
 void directions(const Box& box, Vec3& eye, Vec3& up) {
@@ -90,7 +72,8 @@ BodyView::~BodyView() {
 }
 
 void BodyView::set_up_body() {
-  mapper_->SetLookupTable(make_color_map(field_, range_.low, range_.high));
+  colors_ = make_color_map(field_, range_.low, range_.high);
+  mapper_->SetLookupTable(colors_);
   mapper_->SetUseLookupTableScalarRange(true);
   mapper_->SetScalarVisibility(true);
   mapper_->SetInterpolateScalarsBeforeMapping(true);
@@ -122,12 +105,19 @@ void BodyView::set_up_lights() {
   body_layer_->SetAutomaticLightCreation(false);
 }
 
-// Thin lines, where faces are large enough to be told apart.
+// Thin, half-transparent lines, where faces are large enough to be told apart.
 void BodyView::set_up_edges() {
-  if (std::sqrt(frames_.mean_face_area()) * pixels_per_metre_ < least_face_with_edges) return;
-  body_->GetProperty()->SetEdgeVisibility(true);
-  body_->GetProperty()->SetEdgeColor(0.16, 0.16, 0.18);
-  body_->GetProperty()->SetLineWidth(0.5F);
+  const double across = std::sqrt(frames_.mean_face_area()) * pixels_per_metre_;
+  if (across < least_face_with_edges) return;
+  mapper_->SetResolveCoincidentTopologyToPolygonOffset();
+  mapper_->SetRelativeCoincidentTopologyPolygonOffsetParameters(4, 40);
+  edge_mapper_->ScalarVisibilityOff();
+  edges_->SetMapper(edge_mapper_);
+  edges_->GetProperty()->SetRepresentationToWireframe();
+  edges_->GetProperty()->LightingOff();
+  edges_->GetProperty()->SetColor(0.06, 0.06, 0.08);
+  edges_->GetProperty()->SetOpacity(across < 2 * least_face_with_edges ? 0.3 : 0.5);
+  body_layer_->AddActor(edges_);
 }
 
 // A line of a round length in the corner below the colour bar.
@@ -182,32 +172,16 @@ void BodyView::set_up_camera(const Box& box) {
   camera.SetPosition(position.data());
   camera.SetViewUp(up.data());
   camera.SetParallelScale(scale);
-  camera.SetClippingRange(0.3 * distance, 2 * distance);
+  // No wider than the body, or the edges sink into the faces for lack of digits in the depth.
+  camera.SetClippingRange(distance - 0.55 * box.diagonal() - 1e-10, distance + 0.55 * box.diagonal() + 1e-10);
 }
 
 void BodyView::set_up_bar() {
-  const double width = place_.right - place_.left;
-  bar_->SetLookupTable(mapper_->GetLookupTable());
-  bar_->SetTextPad(window_.font_size(7));
-  bar_->SetUnconstrainedFontSize(true);
-  bar_->SetMaximumNumberOfColors(256);
-  const std::vector<double> marks = ticks(range_.low, range_.high);
-  const vtkNew<vtkDoubleArray> labels;
-  for (const double mark : marks) labels->InsertNextValue(std::abs(mark) < 1e-12 * range_.high ? 0.0 : mark);
-  bar_->SetCustomLabels(labels);
-  bar_->SetUseCustomLabels(true);
-  bar_->SetLabelFormat(tick_format(marks).c_str());
-  set_ink(*bar_->GetLabelTextProperty(), window_.font_size(21), false);
-  bar_->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
-  bar_->SetPosition(place_.right - 0.16 * width, place_.bottom + 0.17);
-  bar_->SetWidth(0.15 * width);
-  bar_->SetHeight(0.62 * (place_.top - place_.bottom));
-  bar_->SetBarRatio(bar_thickness * window_.height() / (0.15 * width * window_.width()));
-  window_.sheet().AddActor2D(bar_);
-  // The bar's own title would be centred above it, and cut off at the edge of the picture.
-  const auto title = window_.add_text(place_.right - 0.02 * width, place_.bottom + 0.83, 24, false);
-  title->SetInput(title_of(field_, unit_.name).c_str());
-  title->GetTextProperty()->SetJustificationToRight();
+  const double width = place_.right - place_.left, height = place_.top - place_.bottom;
+  const double left = place_.right - 0.15 * width, bottom = place_.bottom + 0.17 * height;
+  const double right = left + bar_thickness * window_.height() / window_.width();
+  add_color_bar(window_, *colors_, title_of(field_, unit_.name), left, bottom, right, bottom + 0.62 * height,
+                place_.right - 0.02 * width);
 }
 
 void BodyView::set_up_triad() {
@@ -277,13 +251,14 @@ void BodyView::show(std::size_t frame) {
   normals->ConsistencyOff();
   normals->Update();
   mapper_->SetInputData(normals->GetOutput());
+  edge_mapper_->SetInputData(painted);
   if (at_points != nullptr)
     mapper_->SetScalarModeToUsePointData();
   else
     mapper_->SetScalarModeToUseCellData();
-  extrema_->SetInput(
-      low <= high ? fmt::format("min {:.4g}   max {:.4g}   {}", low, high, unit_.name == "1" ? "" : unit_.name).c_str()
-                  : "no faces");
+  const std::string unit = unit_.name == "1" ? "" : " " + unit_.name;
+  const std::string extrema = fmt::format("min {:.4g}{}   max {:.4g}{}", low, unit, high, unit);
+  extrema_->SetInput(low <= high ? extrema.c_str() : "no faces");
 }
 
 }  // namespace tenon

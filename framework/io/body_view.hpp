@@ -8,7 +8,6 @@
 #include <vtkNew.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkRenderer.h>
-#include <vtkScalarBarActor.h>
 #include <vtkTextActor.h>
 
 #include "framework/base/box.hpp"
@@ -50,9 +49,9 @@ class BodyView {
   double pixels_per_metre_ = 0;
   ShownUnit unit_;
   vtkNew<vtkRenderer> body_layer_, triad_layer_;
-  vtkNew<vtkPolyDataMapper> mapper_;
-  vtkNew<vtkActor> body_;
-  vtkNew<vtkScalarBarActor> bar_;
+  vtkNew<vtkPolyDataMapper> mapper_, edge_mapper_;
+  vtkNew<vtkActor> body_, edges_;
+  vtkSmartPointer<vtkLookupTable> colors_;
   vtkSmartPointer<vtkTextActor> extrema_;
 };
 

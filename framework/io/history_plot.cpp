@@ -167,7 +167,7 @@ void add_chart(vtkContextScene& scene, const HistoryTable& table, const PlotGrou
     vtkChartLegend& legend = *chart->GetLegend();
     place_legend(legend, *data);
     legend.SetLabelSize(font - 2);
-    legend.GetLabelProperties()->SetColor(ink[0], ink[1], ink[2]);
+    set_ink(*legend.GetLabelProperties(), font - 2, false);
     legend.GetPen()->SetLineType(vtkPen::NO_PEN);
   } else {
     chart->SetTitle(table.names[static_cast<std::size_t>(group.columns.front())]);
