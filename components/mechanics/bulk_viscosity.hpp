@@ -7,7 +7,7 @@
 namespace tenon {
 
 /// Mean stress rho L (linear c r + quadratic L r |r|), r = rate of volume strain; the quadratic part in compression
-/// only. The coefficients are those of LS-DYNA (*CONTROL_BULK_VISCOSITY Q2 and Q1; [vNR50], [Lan80]); the linear part
+/// only. The coefficients are those of LS-DYNA (*CONTROL_BULK_VISCOSITY Q2 and Q1; [vNR50], [Lan55]); the linear part
 /// acts in expansion as well, as in Abaqus/Explicit, so that it damps and does not rectify.
 struct BulkViscosity {
   double linear = 0.06;

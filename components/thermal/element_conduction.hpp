@@ -44,7 +44,7 @@ void conduction(const ElementTable& table, const CornerBatch& corners, const dou
 
 /// Upper bound of the greatest eigenvalue of C^-1 K of each element, 1/s: the root of order 128 of the trace of its
 /// 128th power, at most 8^(1/128) = 1.6 % too high. `capacity` (J/K): [node][lane], lumped. The greatest eigenvalue of
-/// a mesh is not above that of its elements [HB81].
+/// a mesh is not above that of its elements [HPT79].
 void eigenvalue_bound(const ElementTable& table, const ConductionBatch& links,
                       const double (&capacity)[max_element_nodes][lanes], double (&bound)[lanes]);
 
