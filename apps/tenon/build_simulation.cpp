@@ -96,6 +96,7 @@ void distribute_to(const Communicator& comm, std::vector<SceneMesh>& meshes, con
     MeshData data = last ? std::move(mesh.data) : mesh.data;
     DistributeOptions options;
     options.cost = planned[p].cost;
+    options.name = planned[p].name;
     simulation.add(planned[p].make(distribute(comm, std::move(data), options)));
   }
 }
