@@ -19,7 +19,8 @@ bool is_space(char c) {
 
 /// Part of the file as it may be shown in a message.
 std::string shown(std::string_view text) {
-  return "'" + printable(text.substr(0, 40)) + (text.size() > 40 ? "..." : "") + "'";
+  std::string out(1, '\'');
+  return out.append(printable(text.substr(0, 40))).append(text.size() > 40 ? "...'" : "'");
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ SideFinder::SideFinder(const MeshData& mesh, int dimension, const std::vector<bo
         }
         if (!all) continue;
         entry.sorted = entry.ordered;
-        std::sort(entry.sorted.begin(), entry.sorted.begin() + static_cast<std::ptrdiff_t>(count));
+        std::sort(entry.sorted.begin(), entry.sorted.end());
         entries_.push_back(entry);
       }
     }
@@ -50,7 +50,7 @@ SideFinder::SideFinder(const MeshData& mesh, int dimension, const std::vector<bo
 std::optional<SideData> SideFinder::find(std::span<const GlobalId> nodes) const {
   Nodes key{no_id, no_id, no_id, no_id};
   std::copy(nodes.begin(), nodes.end(), key.begin());
-  std::sort(key.begin(), key.begin() + static_cast<std::ptrdiff_t>(nodes.size()));
+  std::sort(key.begin(), key.end());
   const auto first = std::lower_bound(entries_.begin(), entries_.end(), key,
                                       [](const Entry& entry, const Nodes& k) { return entry.sorted < k; });
   if (first == entries_.end() || first->sorted != key) return std::nullopt;
