@@ -9,78 +9,12 @@
 #include <type_traits>
 
 #include "framework/comm/communicator_impl.hpp"
+#include "framework/comm/item_copy.hpp"
 #include "framework/comm/sparse_exchange.hpp"
 
 namespace tenon {
 
 namespace {
-
-template <std::size_t bytes>
-void gather(const std::byte* from, std::span<const LocalIndex> items, std::byte* to) {
-  for (const LocalIndex item : items) {
-    std::memcpy(to, from + static_cast<std::size_t>(item) * bytes, bytes);
-    to += bytes;
-  }
-}
-
-template <std::size_t bytes>
-void scatter(const std::byte* from, std::span<const LocalIndex> items, std::byte* to) {
-  for (const LocalIndex item : items) {
-    std::memcpy(to + static_cast<std::size_t>(item) * bytes, from, bytes);
-    from += bytes;
-  }
-}
-
-template <std::size_t bytes>
-void copy(const std::byte* from, std::span<const LocalIndex> items, std::byte* to, std::span<const LocalIndex> places) {
-  for (std::size_t i = 0; i < items.size(); ++i)
-    std::memmove(to + static_cast<std::size_t>(places[i]) * bytes, from + static_cast<std::size_t>(items[i]) * bytes,
-                 bytes);
-}
-
-// Copies of a length known to the compiler are several times faster. Calls `work` with that length (an integral
-// constant), or returns false: one and two words, a vector, a tensor.
-template <typename Work>
-bool with_fixed_length(std::size_t bytes, const Work& work) {
-  switch (bytes) {
-    case 4:
-      work(std::integral_constant<std::size_t, 4>());
-      return true;
-    case 8:
-      work(std::integral_constant<std::size_t, 8>());
-      return true;
-    case 16:
-      work(std::integral_constant<std::size_t, 16>());
-      return true;
-    case 24:
-      work(std::integral_constant<std::size_t, 24>());
-      return true;
-    case 48:
-      work(std::integral_constant<std::size_t, 48>());
-      return true;
-    default:
-      return false;
-  }
-}
-
-void gather(const std::byte* from, std::span<const LocalIndex> items, std::byte* to, std::size_t bytes) {
-  if (with_fixed_length(bytes, [&](auto length) { gather<length()>(from, items, to); })) return;
-  for (std::size_t i = 0; i < items.size(); ++i)
-    std::memcpy(to + i * bytes, from + static_cast<std::size_t>(items[i]) * bytes, bytes);
-}
-
-void scatter(const std::byte* from, std::span<const LocalIndex> items, std::byte* to, std::size_t bytes) {
-  if (with_fixed_length(bytes, [&](auto length) { scatter<length()>(from, items, to); })) return;
-  for (std::size_t i = 0; i < items.size(); ++i)
-    std::memcpy(to + static_cast<std::size_t>(items[i]) * bytes, from + i * bytes, bytes);
-}
-
-void copy(const ExchangeItem& array, std::span<const LocalIndex> items, std::span<const LocalIndex> places) {
-  if (with_fixed_length(array.bytes, [&](auto length) { copy<length()>(array.from, items, array.to, places); })) return;
-  for (std::size_t i = 0; i < items.size(); ++i)
-    std::memmove(array.to + static_cast<std::size_t>(places[i]) * array.bytes,
-                 array.from + static_cast<std::size_t>(items[i]) * array.bytes, array.bytes);
-}
 
 // The distinct ranks of a list (few) with the places where each stands, in order: a counting sort.
 RankLists by_rank(std::span<const int> rank_of_item) {
@@ -217,21 +151,21 @@ void ExchangePlan::Impl::wait() {
 
 void ExchangePlan::Impl::pack(std::span<const LocalIndex> items, std::byte* to) const {
   for (const ExchangeItem& array : arrays_) {
-    gather(array.from, items, to, array.bytes);
+    gather_items(array.from, items, to, array.bytes);
     to += items.size() * array.bytes;
   }
 }
 
 void ExchangePlan::Impl::unpack(const std::byte* from, std::span<const LocalIndex> items) const {
   for (const ExchangeItem& array : arrays_) {
-    scatter(from, items, array.to, array.bytes);
+    scatter_items(from, items, array.to, array.bytes);
     from += items.size() * array.bytes;
   }
 }
 
 void ExchangePlan::Impl::copy_own(Way way) const {
   if (own_staged_) return unpack(own_.data(), own(to(way)));
-  for (const ExchangeItem& array : arrays_) copy(array, own(from(way)), own(to(way)));
+  for (const ExchangeItem& array : arrays_) copy_items(array, own(from(way)), own(to(way)));
 }
 
 void ExchangePlan::Impl::begin(std::span<const ExchangeItem> arrays_in, Way way) {
