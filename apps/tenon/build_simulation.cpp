@@ -262,4 +262,11 @@ BuiltScene build_simulation(const Communicator& comm, Log& log, const LoadedScen
   return built;
 }
 
+void print_warnings(Log& log, const BuiltScene& built) {
+  for (const std::string& warning : built.warnings) log.warning(warning);
+  for (const auto& component : built.simulation->components())
+    if (const auto* const mechanics = dynamic_cast<const Mechanics*>(component.get()))
+      for (const std::string& warning : mechanics->warnings()) log.warning(warning);
+}
+
 }  // namespace tenon

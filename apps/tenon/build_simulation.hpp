@@ -31,4 +31,7 @@ struct BuiltScene {
 /// Error(geometry); together on all ranks.
 BuiltScene build_simulation(const Communicator& comm, Log& log, const LoadedScene& scene);
 
+/// Local. What a user should know of the scene and of its components; to be called after `initialize`.
+void print_warnings(Log& log, const BuiltScene& built);
+
 }  // namespace tenon

@@ -74,6 +74,7 @@ void plan_scene(const Communicator& comm, const RunArguments& arguments) {
   BuiltScene built = build_simulation(comm, log, scene);
   Simulation& simulation = *built.simulation;
   simulation.initialize();
+  print_warnings(log, built);
   for (const auto& component : simulation.components()) print_component(simulation, *component);
   std::int64_t maps = 0;
   for (const auto& coupling : simulation.couplings()) {

@@ -84,7 +84,6 @@ ExitCode run_scene(const Communicator& comm, const RunArguments& arguments) {
   if (!checkpoint.empty()) reader = std::make_unique<CheckpointReader>(comm, checkpoint);
   prepare_folder(comm, folder, reader != nullptr);
   comm.vote([&] { log.open(folder + "/log.txt", reader != nullptr); });
-  for (const std::string& warning : built.warnings) log.warning(warning);
   if (reader) log.print("continuing from {}", checkpoint);
 
   StopRequest stop;
@@ -92,6 +91,7 @@ ExitCode run_scene(const Communicator& comm, const RunArguments& arguments) {
   HistoryOutput* history = nullptr;
   add_observers(simulation, built.output, folder, history);
   simulation.initialize(reader.get());
+  print_warnings(log, built);
   reader.reset();
   simulation.run();
 
@@ -113,7 +113,7 @@ void check_scene(const Communicator& comm, const RunArguments& arguments) {
   const LoadedScene scene = load_scene(comm, arguments.scene, parse_overrides(arguments.settings));
   BuiltScene built = build_simulation(comm, log, scene);
   built.simulation->initialize();
-  for (const std::string& warning : built.warnings) log.warning(warning);
+  print_warnings(log, built);
   log.print("{}: valid", arguments.scene);
 }
 
