@@ -83,7 +83,7 @@ std::vector<Vec3> recovered_gradients(const Partner& source, const std::vector<d
       averaged_at_nodes<double>(source, [&](LocalIndex item, const ElementBlock&, LocalIndex, const CentreGradients&) {
         return values[static_cast<std::size_t>(item)];
       });
-  std::vector<Vec3> gradients(source.items.ids.size());
+  std::vector<Vec3> gradients(source.items().ids.size());
   for_each_element(*source.mesh, [&](LocalIndex item, const ElementBlock& block, LocalIndex e) {
     const CentreGradients centre = centre_gradients(block.kind, corners_of(block, e, source.coordinates));
     gradients[static_cast<std::size_t>(item)] = gradient_in(block, e, centre, nodal);
@@ -111,7 +111,7 @@ std::vector<Vec3> gathered(const RowMap& map, const std::vector<Vec3>& values) {
 double greatest_over_rows(const Partner& target, const RowMap& map, bool nodal, const std::vector<Vec3>& targets,
                           const std::vector<Vec3>& x, const std::vector<Vec3>& g) {
   double greatest = 0;
-  for (const LocalIndex item : target.items.owned) {
+  for (const LocalIndex item : target.items().owned) {
     const auto i = static_cast<std::size_t>(item);
     Vec3 nearest{}, slope{};
     map.for_each_term(i, [&](std::size_t slot, double weight) {
@@ -136,7 +136,7 @@ double interpolation_error(const Partner& source, const Partner& target, const R
   const std::vector<Vec3> targets = places_of(target);
   const std::vector<Vec3> x = gathered(map, places_of(source));
   double greatest = 0;
-  std::vector<double> component(source.items.ids.size());
+  std::vector<double> component(source.items().ids.size());
   for (std::size_t c = 0; c < width; ++c) {
     for (std::size_t i = 0; i < component.size(); ++i) component[i] = values[i * width + c];
     const std::vector<Vec3> g = gathered(map, recovered_gradients(source, component));

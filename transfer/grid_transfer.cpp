@@ -81,7 +81,7 @@ Partner partner_of(const Grid& grid) {
   partner.mesh = grid.mesh;
   partner.location = grid.location;
   partner.nodes = items_of(*grid.mesh, Location::node);
-  partner.items = grid.location == Location::node ? partner.nodes : items_of(*grid.mesh, grid.location);
+  if (grid.location == Location::element) partner.elements = items_of(*grid.mesh, grid.location);
   partner.coordinates.assign(grid.coordinates.begin(), grid.coordinates.end());
   return partner;
 }
@@ -143,7 +143,7 @@ void GridTransfer::Impl::build() {
   misses = count_misses(comm(), sought);
   refuse_misses(misses, options, name);
   sought = {};
-  rows = share_rows(comm(), target.items, std::move(rows), name + ".rows");
+  rows = share_rows(comm(), target.items(), std::move(rows), name + ".rows");
   const bool interpolating = method == Method::interpolate;
   map = RowMap(comm(), rows, interpolating, interpolating ? options.outside_value : 0.0, name);
   source.volumes.clear();
@@ -159,7 +159,7 @@ void GridTransfer::Impl::apply(std::span<const TransferItem> fields) const {
   double* place = gathered.data();
   for (const TransferItem& f : fields) {
     const auto n = static_cast<std::size_t>(f.components);
-    assert(f.source.size() == n * source.items.ids.size() && f.target.size() == n * target.items.ids.size());
+    assert(f.source.size() == n * source.items().ids.size() && f.target.size() == n * target.items().ids.size());
     messages.push_back(
         {reinterpret_cast<const std::byte*>(f.source.data()), reinterpret_cast<std::byte*>(place), n * sizeof(double)});
     place += n * map.slots();
@@ -219,7 +219,7 @@ std::int64_t GridTransfer::memory() const {
   std::int64_t sum = impl_->map.memory() + bytes(impl_->gathered) + bytes(impl_->messages);
   for (const Partner* p : {&impl_->source, &impl_->target}) {
     sum += bytes(p->coordinates) + bytes(p->volumes);
-    for (const Items* items : {&p->nodes, &p->items})
+    for (const Items* items : {&p->nodes, &p->elements})
       sum += bytes(items->ids) + bytes(items->owners) + bytes(items->at_owner) + bytes(items->owned);
   }
   return sum;

@@ -14,11 +14,12 @@ namespace tenon::transfer {
 struct Partner {
   const Mesh* mesh = nullptr;
   Location location = Location::node;
-  Items nodes, items;
+  Items nodes, elements;  ///< elements only where the field lives on them
   std::vector<Vec3> coordinates;
   mutable std::vector<double> volumes;  ///< of the items, m^3; worked out by the first report
 
-  Side side() const { return {*mesh, coordinates, location, nodes, items}; }
+  const Items& items() const { return location == Location::node ? nodes : elements; }
+  Side side() const { return {*mesh, coordinates, location, nodes, items()}; }
 };
 
 /// Points outside, the same on every rank.

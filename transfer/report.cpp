@@ -16,10 +16,10 @@ struct Integral {
 
 /// Collective. Of the first component over the owned items: the sum of totals, the volume integral of others.
 Integral integral_of(const Partner& partner, std::span<const double> values, int components, bool total) {
-  if (!total && partner.volumes.size() != partner.items.ids.size())
+  if (!total && partner.volumes.size() != partner.items().ids.size())
     partner.volumes = item_volumes(*partner.mesh, partner.coordinates, partner.location);
   ExactSum sum, magnitude;
-  for (const LocalIndex item : partner.items.owned) {
+  for (const LocalIndex item : partner.items().owned) {
     const auto i = static_cast<std::size_t>(item);
     const double value = values[i * static_cast<std::size_t>(components)];
     const double volume = total ? 1.0 : partner.volumes[i];

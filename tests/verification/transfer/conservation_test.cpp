@@ -23,9 +23,9 @@ double smooth(const Vec3& x) {
 
 std::vector<Pair> pairs() {
   std::vector<Pair> all;
-  const auto hex = box(6, {.distortion = 0.2});
-  const auto tet = box(5, {.tetrahedra = true, .distortion = 0.2, .seed = 5});
-  const auto fine = box(11, {.distortion = 0.15, .seed = 3});
+  const auto hex = box(5, {.distortion = 0.2});
+  const auto tet = box(4, {.tetrahedra = true, .distortion = 0.2, .seed = 5});
+  const auto fine = box(8, {.distortion = 0.15, .seed = 3});
   all.push_back({distributed(hex), distributed(tet, PartitionMethod::graph)});
   all.push_back({distributed(tet), distributed(hex, PartitionMethod::graph)});
   all.push_back({distributed(hex), distributed(fine, PartitionMethod::graph)});
@@ -33,7 +33,7 @@ std::vector<Pair> pairs() {
   all.push_back({distributed(testing::mixed_box(3)), distributed(hex, PartitionMethod::graph)});
   // Curved bodies: gaps and overlaps all around.
   all.push_back({distributed(generate(CylinderShape{.core = 2, .shell = 2, .axial = 4})),
-                 distributed(generate(CylinderShape{.core = 4, .shell = 3, .axial = 5, .tetrahedra = true}),
+                 distributed(generate(CylinderShape{.core = 4, .shell = 2, .axial = 4, .tetrahedra = true}),
                              PartitionMethod::graph)});
   return all;
 }
@@ -133,13 +133,13 @@ TEST(Conservation, PartlyCoveredTargetsGetTheirPart) {
   const auto result = testing::transferred(pair, FieldKind::total, heat);
   EXPECT_NEAR(testing::global_sum(*pair.target, Location::node, result), 1.0, 1e-14);
   for (std::size_t i = 0; i < result.size(); ++i) {
-    const bool beyond = pair.target->coordinates[i][0] > 1.4;
+    const bool beyond = pair.target->coordinates[i][0] > 1.2;
     EXPECT_EQ(result[i] == 0.0, beyond);
   }
 }
 
 TEST(Conservation, NodalDensityFollowsTheField) {
-  // Conservation does not ruin the values: smooth densities come out with an error that falls with the mesh.
+  // Conservation does not ruin the values: the greatest error of a smooth density is of first order.
   std::array<double, 2> error{};
   for (std::size_t k = 0; k < 2; ++k) {
     const int n = 8 << k;
