@@ -92,12 +92,11 @@ void Mechanics::choose_step() {
   if (estimate_ < options_.time_step.collapse * first_estimate_) fail(estimate_);
   stable_step_ = options_.time_step.scale * estimate_;
   if (options_.time_step.maximum) stable_step_ = std::min(stable_step_, *options_.time_step.maximum);
-  if (!options_.time_step.fixed) return;
-  stable_step_ = *options_.time_step.fixed;
-  if (stable_step_ > 1.05 * estimate_ && warnings_.empty())
+  if (options_.time_step.fixed) stable_step_ = *options_.time_step.fixed;
+  if (stable_step_ > 1.02 * estimate_ && warnings_.empty())
     warnings_.push_back(
-        fmt::format("{}: time_step.fixed {:.4g} s is {:.2f} times the stable step of a free element, "
-                    "{:.4g} s; this can be unstable",
+        fmt::format("{}: the time step, {:.4g} s, is {:.2f} times that which a free element allows, "
+                    "{:.4g} s; this can be unstable (time_step.fixed, time_step.scale)",
                     name(), stable_step_, stable_step_ / estimate_, estimate_));
 }
 

@@ -57,7 +57,8 @@ TEST(Mechanics, LedgerClosesOverTenThousandSteps) {
   m->initialize();
   Ledger ledger(*m);
   double error = 0;
-  for (int s = 0; s < 10000; ++s) {
+  const int steps = long_run(10000);
+  for (int s = 0; s < steps; ++s) {
     m->advance(m->time_step());
     if (s % 100 == 0) error = std::max(error, ledger.error());
   }
@@ -67,7 +68,6 @@ TEST(Mechanics, LedgerClosesOverTenThousandSteps) {
   EXPECT_GT(rows.at("plastic_work"), 0);
   EXPECT_GT(rows.at("hourglass_energy"), 0);
   EXPECT_GT(rows.at("viscosity_energy"), 0);
-  // Momentum goes into the wall only.
   EXPECT_NEAR(rows.at("heat_generated"), 0.9 * rows.at("plastic_work"), 1e-15);
 }
 
@@ -77,7 +77,7 @@ TEST(Mechanics, StiffnessHourglassKeepsTheLedger) {
   const auto m = body(shared_mesh(on_root(bar())), steel(), options);
   m->initialize();
   Ledger ledger(*m);
-  for (int s = 0; s < 2000; ++s) m->advance(m->time_step());
+  for (int s = 0; s < long_run(2000); ++s) m->advance(m->time_step());
   EXPECT_LT(ledger.error(), 1e-12);
 }
 
@@ -124,6 +124,7 @@ TEST(Mechanics, AdiabaticHeatWarmsByTheShareOfPlasticWork) {
 
 // VERIFICATION F02: a bar between stiff walls, warmed by 100 K.
 TEST(Mechanics, ImportedTemperatureExpands) {
+  if (communicator().size() > 1) GTEST_SKIP() << "one element";
   for (int held = 1; held <= 3; ++held) {
     MaterialDescription material = steel();
     material.elastic->expansion = 12e-6;

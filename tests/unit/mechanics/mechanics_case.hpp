@@ -18,6 +18,11 @@
 
 namespace tenon::testing {
 
+/// Steps of a long run: all on one rank, a share on more, where ranks may wait for each other on few cores.
+inline int long_run(int steps) {
+  return communicator().size() == 1 ? steps : steps / 20;
+}
+
 inline MaterialDescription elastic_material(double youngs_modulus, double poissons_ratio, double density) {
   MaterialDescription m;
   m.name = "test";

@@ -18,7 +18,7 @@ std::unique_ptr<Mechanics> pulled(double strain) {
   options.heat = HeatMode::adiabatic;
   PrescribedMotion pull = motion(Kind::displacement, {"x_max"});
   pull.components = {true, false, false};
-  const double end = 0.05;
+  const double end = 0.5;  // hundreds of periods
   pull.value[0] = TimeFunction::smooth_step(0, std::exp(strain) - 1, 0, end);
   options.motions = {symmetry("x_min", {1, 0, 0}), symmetry("y_min", {0, 1, 0}), symmetry("z_min", {0, 0, 1}), pull};
   auto m = body(shared_mesh(on_root(BoxShape{})), material, options);
