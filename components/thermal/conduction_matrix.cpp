@@ -47,14 +47,16 @@ void ConductionMatrix::make_pattern() {
   diagonal_.assign(mesh_.owned_nodes.size(), 0.0);
 }
 
+/// Position of K_ij among the values; no_index if another rank has that row.
+LocalIndex ConductionMatrix::place(LocalIndex i, LocalIndex j) const {
+  const LocalIndex row = row_of_node_[static_cast<std::size_t>(i)];
+  if (row == no_index) return no_index;
+  const auto first = columns_.begin() + offsets_[static_cast<std::size_t>(row)];
+  const auto last = columns_.begin() + offsets_[static_cast<std::size_t>(row) + 1];
+  return static_cast<LocalIndex>(std::lower_bound(first, last, j) - columns_.begin());
+}
+
 void ConductionMatrix::place_elements() {
-  const auto place = [this](LocalIndex i, LocalIndex j) {
-    const LocalIndex row = row_of_node_[static_cast<std::size_t>(i)];
-    if (row == no_index) return no_index;
-    const auto first = columns_.begin() + offsets_[static_cast<std::size_t>(row)];
-    const auto last = columns_.begin() + offsets_[static_cast<std::size_t>(row) + 1];
-    return static_cast<LocalIndex>(std::lower_bound(first, last, j) - columns_.begin());
-  };
   for (const ElementBlock& block : mesh_.blocks) {
     first_place_.push_back(places_.size());
     for (LocalIndex e = 0; e < block.size(); ++e) {
@@ -77,12 +79,20 @@ ConductionMatrix::BadElement ConductionMatrix::assemble(std::span<const Vec3> co
     if (bad.id != no_id) return bad;
     first_element += mesh_.blocks[b].size();
   }
+  return {};
+}
+
+void ConductionMatrix::add_link(LocalIndex i, LocalIndex j, double value) {
+  for (const LocalIndex p : {place(i, j), place(j, i)})
+    if (p != no_index) values_[static_cast<std::size_t>(p)] += value;
+}
+
+void ConductionMatrix::finish() {
   for (std::size_t r = 0; r < diagonal_.size(); ++r) {
     double sum = 0;
     for (LocalIndex p = offsets_[r]; p < offsets_[r + 1]; ++p) sum += values_[static_cast<std::size_t>(p)];
     diagonal_[r] = -sum;
   }
-  return {};
 }
 
 ConductionMatrix::BadElement ConductionMatrix::assemble_block(LocalIndex b, LocalIndex first_element,

@@ -25,8 +25,13 @@ class ConductionMatrix {
     GlobalId id = no_id;
     LocalIndex block = no_index, element = no_index;
   };
-  /// Local. Computes all entries at these node positions. Stops at the first bad element.
+  /// Local. Computes all links at these node positions; `finish` must follow. Stops at the first bad element.
   BadElement assemble(std::span<const Vec3> coordinates);
+
+  /// Local. Adds to K_ij and K_ji (W/K), between `assemble` and `finish`; nodes of one element only.
+  void add_link(LocalIndex i, LocalIndex j, double value);
+  /// Local. Computes the diagonal.
+  void finish();
 
   /// Greatest bound of an element's eigenvalues of C^-1 K (1/s) among the elements assembled last, and the least id
   /// that has it. Known only if `bound_with` was called before assembling.
@@ -54,6 +59,7 @@ class ConductionMatrix {
  private:
   void make_pattern();
   void place_elements();
+  LocalIndex place(LocalIndex i, LocalIndex j) const;
   BadElement assemble_block(LocalIndex block, LocalIndex first_element, std::span<const Vec3> coordinates);
   void scatter(std::size_t place, const ConductionBatch& links, int lane, const ElementTable& table);
   void note_eigenvalues(const ElementTable& table, const ConductionBatch& links, LocalIndex block, LocalIndex first,

@@ -138,9 +138,12 @@ void nodal_volumes(ElementKind kind, std::span<const Vec3> corners, std::span<do
   }
 }
 
-void nodal_areas(std::span<const Vec3> corners, std::span<double> areas) {
+namespace {
+
+/// Calls use(N, dA) at the quadrature points of a side.
+template <typename Use>
+void integrate_side(std::span<const Vec3> corners, const Use& use) {
   const ElementKind kind = corners.size() == 3 ? ElementKind::tri3 : ElementKind::quad4;
-  std::ranges::fill(areas, 0.0);
   std::array<double, max_element_nodes> shape{};
   std::array<Vec3, max_element_nodes> gradient{};
   for (const QuadraturePoint& point : quadrature(kind)) {
@@ -151,9 +154,26 @@ void nodal_areas(std::span<const Vec3> corners, std::span<double> areas) {
       u = u + gradient[a][0] * corners[a];
       v = v + gradient[a][1] * corners[a];
     }
-    const double area = point.weight * norm(cross(u, v));
-    for (std::size_t a = 0; a < areas.size(); ++a) areas[a] += shape[a] * area;
+    use(shape, point.weight * norm(cross(u, v)));
   }
+}
+
+}  // namespace
+
+void nodal_areas(std::span<const Vec3> corners, std::span<double> areas) {
+  std::ranges::fill(areas, 0.0);
+  integrate_side(corners, [&](const auto& shape, double area) {
+    for (std::size_t a = 0; a < areas.size(); ++a) areas[a] += shape[a] * area;
+  });
+}
+
+SideLinks side_links(std::span<const Vec3> corners) {
+  SideLinks links{};
+  integrate_side(corners, [&](const auto& shape, double area) {
+    for (std::size_t a = 0; a < corners.size(); ++a)
+      for (std::size_t b = a + 1; b < corners.size(); ++b) links[a][b] += shape[a] * shape[b] * area;
+  });
+  return links;
 }
 
 Vec3 centre_gradient(const ElementTable& table, std::span<const Vec3> corners, std::span<const double> values) {

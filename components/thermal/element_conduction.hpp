@@ -54,6 +54,10 @@ void nodal_volumes(ElementKind kind, std::span<const Vec3> corners, std::span<do
 /// Area of a side with 3 or 4 corners shared out to them: integrals of N_a, m^2.
 void nodal_areas(std::span<const Vec3> corners, std::span<double> areas);
 
+/// Integral of N_a N_b over a side with 3 or 4 corners, m^2, for a < b: [a][b].
+using SideLinks = std::array<std::array<double, max_side_nodes>, max_side_nodes>;
+SideLinks side_links(std::span<const Vec3> corners);
+
 /// Gradient of a nodal quantity at the centre of an element.
 Vec3 centre_gradient(const ElementTable& table, std::span<const Vec3> corners, std::span<const double> values);
 

@@ -70,4 +70,16 @@ void Surface::update(std::span<const Vec3> coordinates) {
   }
 }
 
+void Surface::links(std::span<const Vec3> coordinates,
+                    const std::function<void(LocalIndex, LocalIndex, double)>& use) const {
+  std::array<Vec3, max_side_nodes> place{};
+  for (const Side& side : sides_->sides) {
+    const Corners corners = corners_of(mesh_, side);
+    for (std::size_t a = 0; a < corners.count; ++a) place[a] = coordinates[static_cast<std::size_t>(corners.nodes[a])];
+    const SideLinks link = side_links(std::span(place).first(corners.count));
+    for (std::size_t a = 0; a < corners.count; ++a)
+      for (std::size_t b = a + 1; b < corners.count; ++b) use(corners.nodes[a], corners.nodes[b], link[a][b]);
+  }
+}
+
 }  // namespace tenon::thermal

@@ -2,6 +2,7 @@
 // A side set as heat sees it: the area that each node of it stands for.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,6 +18,8 @@ class Surface {
   Surface(const Mesh& mesh, const std::string& side_set);
   /// Local. Recomputes the areas; sides add in ascending order.
   void update(std::span<const Vec3> coordinates);
+  /// Local. Calls use(i, j, integral of N_i N_j) for each pair of nodes of each side, in ascending order of the sides.
+  void links(std::span<const Vec3> coordinates, const std::function<void(LocalIndex, LocalIndex, double)>& use) const;
   /// Rows (positions in mesh.owned_nodes), ascending, and their areas, m^2.
   std::span<const LocalIndex> rows() const { return rows_; }
   std::span<const double> areas() const { return areas_; }

@@ -98,6 +98,7 @@ class Thermal : public Component {
   // Geometry.
   void refresh_geometry();
   void assemble();
+  void add_film_links(const ConvectionLoad& load);
   void throw_if_inverted(const thermal::ConductionMatrix::BadElement& bad) const;
   std::string describe(LocalIndex block, LocalIndex element) const;
 
@@ -142,7 +143,7 @@ class Thermal : public Component {
   std::vector<double> initial_, rise_;  // K; temperature = initial + rise
   std::vector<double> capacity_;        // J/K
   std::vector<double> volume_;          // m^3, reference
-  std::vector<double> film_;            // H: coefficient times area, W/K
+  std::vector<double> film_;            // rows of H: coefficient times area, W/K
   std::vector<double> waiting_heat_;    // received, not yet in the temperature, J
   std::vector<double> right_side_;      // energy that the step brings each node before implicit terms, J
   std::vector<double> residual_;        // J

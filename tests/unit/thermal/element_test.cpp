@@ -144,6 +144,14 @@ TEST(NodalAreas, AddUpToTheSide) {
   for (const double a : areas) EXPECT_NEAR(a, 1, 1e-14);
 }
 
+TEST(SideLinks, AreTheConsistentMassOfASide) {
+  const SideLinks quad = side_links(std::vector<Vec3>{{0, 0, 0}, {2, 0, 0}, {2, 3, 0}, {0, 3, 0}});
+  EXPECT_NEAR(quad[0][1], 6.0 / 18, 1e-14);  // area/18 along an edge, area/36 across
+  EXPECT_NEAR(quad[0][2], 6.0 / 36, 1e-14);
+  const SideLinks triangle = side_links(std::vector<Vec3>{{0, 0, 1}, {2, 0, 1}, {0, 3, 1}});
+  EXPECT_NEAR(triangle[1][2], 3.0 / 12, 1e-14);
+}
+
 TEST(CentreGradient, IsExactForLinearFields) {
   for (const ElementKind kind : solids) {
     const std::vector<Vec3> x = distorted(kind);
