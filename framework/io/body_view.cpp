@@ -25,7 +25,7 @@ namespace tenon {
 
 namespace {
 
-constexpr double least_face_with_edges = 7;  // pixels across; below, edges would hide the colours
+constexpr double least_face_with_edges = 9;  // pixels across; below, edges would hide the colours
 constexpr double bar_thickness = 0.028;      // of the height of the window
 
 /// From the body to the eye and up on the picture: z is up; a body that is flat in z is seen from above.
@@ -107,7 +107,7 @@ void BodyView::set_up_lights() {
 
 // Thin, half-transparent lines, where faces are large enough to be told apart.
 void BodyView::set_up_edges() {
-  const double across = std::sqrt(frames_.mean_face_area()) * pixels_per_metre_;
+  const double across = frames_.face_width() * pixels_per_metre_;
   if (across < least_face_with_edges) return;
   mapper_->SetResolveCoincidentTopologyToPolygonOffset();
   mapper_->SetRelativeCoincidentTopologyPolygonOffsetParameters(4, 40);
@@ -116,7 +116,7 @@ void BodyView::set_up_edges() {
   edges_->GetProperty()->SetRepresentationToWireframe();
   edges_->GetProperty()->LightingOff();
   edges_->GetProperty()->SetColor(0.06, 0.06, 0.08);
-  edges_->GetProperty()->SetOpacity(across < 2 * least_face_with_edges ? 0.3 : 0.5);
+  edges_->GetProperty()->SetOpacity(across < 2 * least_face_with_edges ? 0.35 : 0.5);
   body_layer_->AddActor(edges_);
 }
 

@@ -159,7 +159,7 @@ void add_chart(vtkContextScene& scene, const HistoryTable& table, const PlotGrou
   }
   style_axis(*chart->GetAxis(vtkAxis::BOTTOM), title_of("time", scales.time.name), font);
   style_axis(*chart->GetAxis(vtkAxis::LEFT), title_of(group.quantity, scales.value.name), font);
-  chart->GetAxis(vtkAxis::BOTTOM)->SetRange(0, end * scales.time.scale);
+  chart->GetAxis(vtkAxis::BOTTOM)->SetRange(0, end > 0 ? end * scales.time.scale : 1.0);
   chart->GetAxis(vtkAxis::BOTTOM)->SetBehavior(vtkAxis::FIXED);
   set_range(*chart->GetAxis(vtkAxis::LEFT), *data, group.logarithmic);
   if (group.columns.size() > 1) {

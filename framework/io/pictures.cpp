@@ -65,12 +65,13 @@ std::deque<Subject> make_subjects(const std::string& folder, const PictureOption
     known += (known.empty() ? "" : ", ") + component;
     if (!options.component.empty() && component != options.component) continue;
     Subject subject = make_subject(folder, component, options);
-    if (!subject.fields.empty()) subjects.push_back(std::move(subject));
+    if (!subject.fields.empty() && !subject.frames.box().empty()) subjects.push_back(std::move(subject));
   }
   if (!subjects.empty()) return subjects;
   if (known.empty()) throw Error(ExitCode::file, fmt::format("{}: the run has written no frame yet", folder));
   throw Error(ExitCode::file,
-              fmt::format("{}: nothing to draw: no such component or no such field; components are {}", folder, known));
+              fmt::format("{}: nothing to draw: no such component, no such field, or no elements; components are {}",
+                          folder, known));
 }
 
 std::string time_text(double time, double end) {

@@ -107,8 +107,8 @@ void replace_by_magnitude(vtkDataSetAttributes& data, const std::string& name) {
   data.AddArray(magnitude);
 }
 
-double mean_area(vtkPolyData& surface) {
-  double area = 0;
+double typical_width(vtkPolyData& surface) {
+  double area = 0, perimeter = 0;
   const auto cells = vtk::TakeSmartPointer(surface.GetPolys()->NewIterator());
   for (cells->GoToFirstCell(); !cells->IsDoneWithTraversal(); cells->GoToNextCell()) {
     vtkIdType count = 0;
@@ -120,8 +120,9 @@ double mean_area(vtkPolyData& surface) {
       return p;
     };
     for (vtkIdType i = 2; i < count; ++i) area += 0.5 * norm(cross(corner(i - 1) - corner(0), corner(i) - corner(0)));
+    for (vtkIdType i = 0; i < count; ++i) perimeter += norm(corner((i + 1) % count) - corner(i));
   }
-  return area / static_cast<double>(std::max<vtkIdType>(1, surface.GetNumberOfPolys()));
+  return perimeter > 0 ? 4 * area / perimeter : 0;
 }
 
 void widen(ValueRange& range, vtkDataArray* values) {
@@ -211,7 +212,7 @@ void RunFrames::scan(const std::vector<std::string>& fields) {
   std::size_t bytes = 0;
   for (std::size_t frame = 0; frame < files_.size(); ++frame) {
     const vtkSmartPointer<vtkPolyData> surface = load(frame);
-    if (frame == 0) faces_ = surface->GetNumberOfCells(), mean_face_area_ = mean_area(*surface);
+    if (frame == 0) faces_ = surface->GetNumberOfCells(), face_width_ = typical_width(*surface);
     if (surface->GetNumberOfPoints() > 0) {
       const double* const b = surface->GetBounds();
       box_.add(Vec3{b[0], b[2], b[4]});

@@ -43,9 +43,10 @@ class RunFrames {
   void scan(const std::vector<std::string>& fields);
   const Box& box() const { return box_; }
   ValueRange range(const std::string& field) const { return ranges_.at(field); }
-  /// Faces of the surface in the first frame, and their mean area, m^2.
+  /// Faces of the surface in the first frame, and their typical width, m: 4 area / perimeter, so that thin ones count
+  /// as thin.
   long long faces() const { return faces_; }
-  double mean_face_area() const { return mean_face_area_; }
+  double face_width() const { return face_width_; }
 
   /// The outside of the body in a frame, with the scanned fields; several components as their magnitude.
   vtkSmartPointer<vtkPolyData> surface(std::size_t frame) const;
@@ -63,7 +64,7 @@ class RunFrames {
   std::map<std::string, ValueRange> ranges_;
   Box box_;
   long long faces_ = 0;
-  double mean_face_area_ = 0;
+  double face_width_ = 0;
   std::vector<vtkSmartPointer<vtkPolyData>> kept_;
 };
 

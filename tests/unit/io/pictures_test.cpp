@@ -122,6 +122,8 @@ TEST(Pictures, RefusesWhatCannotBeDrawn) {
   EXPECT_NE(message_of([&] { draw_pictures(folder, options); }).find("components are mechanics, thermal"),
             std::string::npos);
   EXPECT_NE(message_of([&] { draw_pictures("no-such-folder", {}); }).find("holds no frames"), std::string::npos);
+  options.component = "mechanics", options.fields = {"colour"};
+  EXPECT_NE(message_of([&] { draw_pictures(folder, options); }).find("no such field"), std::string::npos);
   std::ofstream(folder + "/frames/thermal-000000.vtu") << "<VTKFile type=\"UnstructuredGrid\"><broken";
   EXPECT_NE(message_of([&] { draw_pictures(folder, {}); }).find("thermal-000000.vtu"), std::string::npos);
   std::filesystem::remove(folder + "/frames/thermal-000000.vtu");
@@ -164,6 +166,15 @@ TEST(Pictures, PiecesOfSeveralRanksJoinWithoutInnerFaces) {
   RunFrames frames(folder, "bar");
   frames.scan({});
   EXPECT_EQ(frames.faces(), 2 * 4 + 4 * 2 * 4);
+}
+
+TEST(Pictures, ARunThatHasOnlyBegun) {
+  const std::string folder = sample_run("io_pictures_begun", 1);
+  std::ofstream(folder + "/history.csv") << "time,step,dt,kinetic_energy,energy_error\n0,0,1e-8,3,0\n";
+  PictureOptions options;
+  options.width = 400, options.height = 300;
+  EXPECT_EQ(draw_pictures(folder, options).size(), 5u);
+  EXPECT_GT(look(folder + "/pictures/history.png").colors, 10u);
 }
 
 TEST(HistoryTable, GroupsColumnsByQuantity) {
