@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Parser of the Gmsh formats MSH 2.x, 4.0 and 4.1. Reference: [Gmsh], "MSH file format" and its legacy chapters.
+// Parser of the Gmsh formats MSH 2.x, 4.0 and 4.1. Reference: [GR09], the manual's "MSH file format" and its legacy
+// versions.
 #include "framework/mesh/gmsh_parser.hpp"
 
 #include <algorithm>

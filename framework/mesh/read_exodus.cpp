@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Exodus II meshes, through the netCDF library that comes with VTK. Names of dimensions and variables: [Exodus], ch. 4.
+// Exodus II meshes, through the netCDF library that comes with VTK. Names of dimensions and variables: [SY94].
 #include <algorithm>
 #include <limits>
 
