@@ -16,6 +16,7 @@
 #include <vtkDataArraySelection.h>
 #include <vtkDataSetSurfaceFilter.h>
 #include <vtkDoubleArray.h>
+#include <vtkExecutive.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkStringArray.h>
@@ -49,7 +50,7 @@ void select_only(vtkDataArraySelection& selection, const std::vector<std::string
 /// With only these fields; with all if `names` is null.
 vtkSmartPointer<vtkUnstructuredGrid> read_piece(const std::string& path, const std::vector<std::string>* names) {
   const vtkNew<vtkXMLUnstructuredGridReader> reader;
-  const VtkErrorNote errors(reader);
+  const VtkErrorNote errors(reader), of_pipeline(reader->GetExecutive());
   reader->SetFileName(path.c_str());
   reader->UpdateInformation();
   if (names != nullptr) {
@@ -58,7 +59,8 @@ vtkSmartPointer<vtkUnstructuredGrid> read_piece(const std::string& path, const s
   }
   reader->Update();
   if (errors.any() || reader->GetErrorCode() != 0)
-    throw Error(ExitCode::file, fmt::format("{}: frame cannot be read: {}", path, errors.text()));
+    throw Error(ExitCode::file, fmt::format("{}: frame cannot be read: {}", path,
+                                            errors.any() ? errors.text() : std::string("damaged, or not there")));
   return reader->GetOutput();
 }
 

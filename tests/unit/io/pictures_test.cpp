@@ -64,7 +64,7 @@ std::string message_of(const std::function<void()>& work) {
 
 std::string sample_run(const std::string& name, int frames) {
   const std::string folder = testing::fresh_folder(testing::communicator(), name);
-  testing::write_sample_run(testing::communicator(), folder, 6, 20, frames);
+  testing::write_sample_run(testing::communicator(), folder, 4, 12, frames);
   return folder;
 }
 
