@@ -93,22 +93,26 @@ void eigenvalue_bound(const ElementTable& table, const ConductionBatch& links,
   const int n = table.nodes;
   // S = C^-1/2 K C^-1/2 has the eigenvalues of C^-1 K.
   Lane s[max_element_nodes][max_element_nodes] = {}, square[max_element_nodes][max_element_nodes];
+  Lane root[max_element_nodes];
+  for (int i = 0; i < n; ++i)
+    for (int l = 0; l < lanes; ++l) root[i].v[l] = 1 / std::sqrt(capacity[i][l]);
   for (int i = 0, pair = 0; i < n; ++i)
     for (int k = i + 1; k < n; ++k, ++pair)
       for (int l = 0; l < lanes; ++l) {
-        s[i][i].v[l] -= links.link[pair][l] / capacity[i][l];
-        s[k][k].v[l] -= links.link[pair][l] / capacity[k][l];
-        s[i][k].v[l] = s[k][i].v[l] = links.link[pair][l] / std::sqrt(capacity[i][l] * capacity[k][l]);
+        const double link = links.link[pair][l], ri = root[i].v[l], rk = root[k].v[l];
+        s[i][i].v[l] -= link * ri * ri;
+        s[k][k].v[l] -= link * rk * rk;
+        s[i][k].v[l] = s[k][i].v[l] = link * ri * rk;
       }
-  Lane trace[squarings + 1];
-  for (int power = 0;; ++power) {
-    trace[power] = {};
-    for (int i = 0; i < n; ++i)
-      for (int l = 0; l < lanes; ++l) trace[power].v[l] += s[i][i].v[l];
-    if (power == squarings) break;
-    for (int i = 0; i < n; ++i)
-      for (int k = 0; k < n; ++k)
-        for (int l = 0; l < lanes; ++l) s[i][k].v[l] /= trace[power].v[l];
+  // Scaled to the trace 1, so that no power can overflow, and none underflows: the greatest eigenvalue is 1/8 or more.
+  Lane trace{}, inverse, last{};
+  for (int i = 0; i < n; ++i)
+    for (int l = 0; l < lanes; ++l) trace.v[l] += s[i][i].v[l];
+  for (int l = 0; l < lanes; ++l) inverse.v[l] = 1 / trace.v[l];
+  for (int i = 0; i < n; ++i)
+    for (int k = 0; k < n; ++k)
+      for (int l = 0; l < lanes; ++l) s[i][k].v[l] *= inverse.v[l];
+  for (int squaring = 0; squaring < squarings; ++squaring) {
     for (int i = 0; i < n; ++i)
       for (int k = i; k < n; ++k) {
         Lane sum{};
@@ -119,13 +123,11 @@ void eigenvalue_bound(const ElementTable& table, const ConductionBatch& links,
     for (int i = 0; i < n; ++i)
       for (int k = 0; k < n; ++k) s[i][k] = square[i][k];
   }
-  // trace(S^(2^m))^(1/2^m) = t0 sqrt(t1 sqrt(t2 ...)), where t_i is the trace found after i squarings of the scaled
-  // matrix.
-  for (int l = 0; l < lanes; ++l) {
-    double root = trace[squarings].v[l];
-    for (int i = squarings; i-- > 0;) root = trace[i].v[l] * std::sqrt(root);
-    bound[l] = root * (1 + 1e-12);
-  }
+  for (int i = 0; i < n; ++i)
+    for (int l = 0; l < lanes; ++l) last.v[l] += s[i][i].v[l];
+  for (int i = 0; i < squarings; ++i)
+    for (int l = 0; l < lanes; ++l) last.v[l] = std::sqrt(last.v[l]);
+  for (int l = 0; l < lanes; ++l) bound[l] = trace.v[l] * last.v[l] * (1 + 1e-12);
 }
 
 void nodal_volumes(ElementKind kind, std::span<const Vec3> corners, std::span<double> volumes) {

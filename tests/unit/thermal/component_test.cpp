@@ -56,7 +56,8 @@ TEST(Thermal, StretchingTheBodyChangesConductionButNotItsCapacity) {
 
 TEST(Thermal, RigidMotionChangesNothing) {
   ThermalOptions options = all_loads(ThermalStepper::backward_euler);
-  Thermal still("heat", distributed(cube(3, true)), options), moving("heat", distributed(cube(3, true)), options);
+  const auto mesh = distributed(cube(3, true));
+  Thermal still("heat", mesh, options), moving("heat", mesh, options);
   still.initialize(), moving.initialize();
   for (int step = 0; step < 5; ++step) {
     std::vector<double> u;
