@@ -39,6 +39,7 @@ std::vector<SceneMesh> read_meshes(const Communicator& comm, Log& log, const Loa
   std::vector<SceneMesh> meshes;
   for (const auto& [name, block] : scene.value.entries("meshes")) {
     meshes.push_back(make_mesh(comm, name, block, scene.folder, diagnostics));
+    for (const std::string& warning : meshes.back().data.warnings) log.warning(name + ": " + warning);
     const MeshSummary& s = meshes.back().summary;
     log.print("mesh {}: {} nodes, {} elements in {} blocks ({})", name, s.nodes, s.elements, s.blocks.size(), s.source);
   }
