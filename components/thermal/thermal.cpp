@@ -132,8 +132,8 @@ void Thermal::assemble() {
   stiffest_ = greatest[0] + greatest[1];
 }
 
-// The film matrix is the mean of the lumped and the consistent one, whose leading errors along a surface cancel [HUG87].
-// It is the lumped one plus links between the nodes of each side, which only move heat among them.
+// The film matrix is the mean of the lumped and the consistent one, whose leading errors along a surface cancel
+// [HUG87]. It is the lumped one plus links between the nodes of each side, which only move heat among them.
 void Thermal::add_film_links(const ConvectionLoad& load) {
   constexpr double share = 0.5;
   const double factor = share * load.coefficient;
