@@ -43,13 +43,16 @@ class TimeFunction {
 
   double operator()(double t) const {
     switch (form_) {
-      case Form::constant: return a_;
-      case Form::sine: return d_ + a_ * std::sin(2 * std::numbers::pi * t / b_ + c_);
+      case Form::constant:
+        return a_;
+      case Form::sine:
+        return d_ + a_ * std::sin(2 * std::numbers::pi * t / b_ + c_);
       case Form::smooth_step: {
         const double s = std::clamp((t - c_) / (d_ - c_), 0.0, 1.0);
         return a_ + (b_ - a_) * s * s * s * (10 + s * (6 * s - 15));
       }
-      case Form::table: break;
+      case Form::table:
+        break;
     }
     return in_table(t);
   }

@@ -13,8 +13,8 @@ namespace tenon {
 enum class Location : std::uint8_t { node, element, particle, face };
 
 /// point_value: a value at a place, interpolated (temperature, displacement). density: an amount per volume, whose
-/// integral is kept. total: an amount that belongs to a node or element, whose sum is kept (heat, force). flux: an amount
-/// per area.
+/// integral is kept. total: an amount that belongs to a node or element, whose sum is kept (heat, force). flux: an
+/// amount per area.
 enum class FieldKind : std::uint8_t { point_value, density, total, flux };
 
 std::string_view to_string(Location location);
