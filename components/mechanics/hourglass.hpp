@@ -134,8 +134,9 @@ struct ViscousHourglass {
   }
 };
 
-/// [FB81] stiffness form: dQ/dt = coefficient (lambda + 2 mu) tr G/(8 V) gamma . v, in a frame that rotates with the
-/// element. For elastic bodies; under plastic flow it is far too stiff.
+/// [FB81] stiffness form: dQ/dt = coefficient (lambda + 2 mu) tr G/(64 V) gamma . v in a frame that rotates with the
+/// element; coefficient is that of gamma vectors of length one, as usual. For elastic bodies; under plastic flow it
+/// stores what should be dissipated (the foot of a Taylor bar stays too small).
 struct StiffnessHourglass {
   static constexpr int state_size = 12;
   double coefficient = 0.05;
@@ -165,7 +166,7 @@ struct StiffnessHourglass {
   TENON_KERNEL HourglassResult<R> step(const HourglassVectors<R>& rate, const ElementScale<R>& s, Batch<12>& state,
                                        int lane, double dt) const {
     const HourglassVectors<R> old = read<R>(state, lane);
-    const R k = (0.125 * coefficient * dt) * s.modulus * s.trace_g / s.volume;
+    const R k = (coefficient * dt / 64.0) * s.modulus * s.trace_g / s.volume;
     const HourglassVectors<R> now{old.eta_zeta + k * rate.eta_zeta, old.zeta_xi + k * rate.zeta_xi,
                                   old.xi_eta + k * rate.xi_eta, old.xi_eta_zeta + k * rate.xi_eta_zeta};
     write<R>(now, state, lane);

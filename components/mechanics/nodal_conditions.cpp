@@ -232,7 +232,7 @@ double replace_component(NodalState& nodes, std::size_t n, const Vec3& direction
   const double kicked = dot(direction, v), force = direction[0] * f[0] + direction[1] * f[1] + direction[2] * f[2];
   const double before = kicked + kick * nodes.inverse_mass[n] * force;
   nodes.internal_work[n] += 0.5 * kick * force * (target - kicked);
-  v = v + (target - kicked) * direction;
+  v = (v - kicked * direction) + target * direction;  // exact along an axis, however hard the kick
   return 0.5 * nodes.mass[n] * (target - kicked) * (before + target);
 }
 
@@ -250,6 +250,10 @@ void NodalConditions::enforce(Constrained& entry, NodalState& nodes, double kick
     const bool wall = motions_[static_cast<std::size_t>(row.motion)].kind == Kind::wall;
     (wall ? wall_work_ : boundary_work_)[n] += work;
   }
+  if (entry.rows < 3) return;
+  Vec3& v = nodes.velocity()[n];
+  v = {};
+  for (int k = 0; k < 3; ++k) v = v + along[k] * entry.row[k].direction;
 }
 
 void NodalConditions::enforce(const Standing& entry, NodalState& nodes, double kick, double dt) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A pure hourglass pattern is held down for ten thousand steps (VERIFICATION A14 a).
+// A pure hourglass pattern is held down for ten thousand steps (case A14 a).
 #include "mechanics_case.hpp"
 
 namespace tenon::testing {

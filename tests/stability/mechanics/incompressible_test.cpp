@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Nearly incompressible blocks do not lock, and their pressure does not alternate (VERIFICATION A14 d).
+// Nearly incompressible blocks do not lock, and their pressure does not alternate (case A14 d).
 #include "mechanics_case.hpp"
 
 namespace tenon::testing {

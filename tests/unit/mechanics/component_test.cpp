@@ -122,7 +122,7 @@ TEST(Mechanics, AdiabaticHeatWarmsByTheShareOfPlasticWork) {
   EXPECT_NEAR(communicator().sum(heat), rows.at("heat_generated"), 1e-9 * rows.at("heat_generated"));
 }
 
-// VERIFICATION F02: a bar between stiff walls, warmed by 100 K.
+// case F02: a bar between stiff walls, warmed by 100 K.
 TEST(Mechanics, ImportedTemperatureExpands) {
   if (communicator().size() > 1) GTEST_SKIP() << "one element";
   for (int held = 1; held <= 3; ++held) {

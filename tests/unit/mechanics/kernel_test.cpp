@@ -120,7 +120,7 @@ TEST(MeanGradient, ProductsAreSumsOverTheNodes) {
   EXPECT_NEAR(g.zx, expected.zx, 1e-14);
 }
 
-// VERIFICATION A14 b: the gamma projection leaves no force for linear velocities on any shape (unprojected: 0.12).
+// case A14 b: the gamma projection leaves no force for linear velocities on any shape (unprojected: 0.12).
 TEST(Hourglass, LinearVelocitiesMeetNoResistance) {
   const std::array<double, 9> a{0.3, -1.2, 0.7, 0.1, 2.0, -0.4, 0.9, 0.5, -1.1};
   double unprojected = 0;

@@ -35,7 +35,7 @@ inline MaterialDescription steel() {
   return elastic_material(210e9, 0.3, 7850);
 }
 
-/// The copper of VERIFICATION A07.
+/// The copper of case A07.
 inline MaterialDescription copper() {
   MaterialDescription m = elastic_material(117e9, 0.35, 8930);
   m.plasticity = LinearHardeningParameters{400e6, 100e6};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The Lame mode of a free cube (VERIFICATION A04): three-dimensional, without boundary conditions, for any Poisson
+// The Lame mode of a free cube (case A04): three-dimensional, without boundary conditions, for any Poisson
 // ratio.
 #include <numbers>
 

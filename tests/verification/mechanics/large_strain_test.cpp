@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Hypoelastic cube under large prescribed motion (VERIFICATION A06): the Jaumann rate's closed forms.
+// Hypoelastic cube under large prescribed motion (case A06): the Jaumann rate's closed forms.
 #include "mechanics_case.hpp"
 
 namespace tenon::testing {

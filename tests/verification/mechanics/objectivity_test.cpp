@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A rigid rotation changes nothing but directions: 360 steps of 1 degree, then 36 of 10 (VERIFICATION A02).
+// A rigid rotation changes nothing but directions: 360 steps of 1 degree, then 36 of 10 (case A02).
 #include <numbers>
 
 #include "mechanics_case.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One element pulled far beyond yield: stress (VERIFICATION A08 a) and adiabatic heat (F01).
+// One element pulled far beyond yield: stress (case A08 a) and adiabatic heat (F01).
 #include "mechanics_case.hpp"
 
 namespace tenon::testing {
