@@ -28,15 +28,6 @@ namespace {
 constexpr double least_face_with_edges = 9;  // pixels across; below, edges would hide the colours
 constexpr double bar_thickness = 0.028;      // of the height of the window
 
-/// From the body to the eye and up on the picture: z is up; a body that is flat in z is seen from above.
-void directions(const Box& box, Vec3& eye, Vec3& up) {
-  const Vec3 size = box.high - box.low;
-  const bool flat = size[2] <= 1e-9 * std::max(size[0], size[1]);
-  eye = flat ? Vec3{0, 0, 1} : Vec3{0.62, -1, 0.42};
-  up = flat ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
-  eye = (1 / norm(eye)) * eye;
-}
-
 }  // namespace
 
 BodyView::BodyView(PictureWindow& window, const RunFrames& frames, const std::string& field, const Box& box,
@@ -59,8 +50,8 @@ BodyView::BodyView(PictureWindow& window, const RunFrames& frames, const std::st
   set_up_triad();
 
   const double middle = 0.5 * (place.left + place.right);
-  const auto title = window.add_text(middle, place.top - 0.075, 30, true);
-  title->SetInput((frames.component() + ": " + field).c_str());
+  const auto title = window.add_text(middle, place.top - 0.105, 30, true);
+  title->SetInput((frames.component() + ": " + field + (frames.is_cut() ? " (cut open)" : "")).c_str());
   title->GetTextProperty()->SetJustificationToCentered();
   extrema_ = window.add_text(middle, place.bottom + 0.03, 22, false);
   extrema_->GetTextProperty()->SetJustificationToCentered();
@@ -145,8 +136,8 @@ void BodyView::set_up_length() {
 }
 
 void BodyView::set_up_camera(const Box& box) {
-  Vec3 eye{}, up{};
-  directions(box, eye, up);
+  // z is up, except where it points to the eye.
+  const Vec3 eye = eye_direction(box), up = eye[2] > 0.99 ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
   Vec3 right = cross(up, eye);
   right = (1 / norm(right)) * right;
   const Vec3 high = cross(eye, right), centre = 0.5 * (box.low + box.high);
@@ -160,7 +151,7 @@ void BodyView::set_up_camera(const Box& box) {
   // The body takes the part of the view that title, extrema and colour bar leave.
   const double width = (place_.right - place_.left) * window_.width(),
                height = (place_.top - place_.bottom) * window_.height();
-  constexpr double free_width = 0.70, free_height = 0.78, bar_shift = 0.07;
+  constexpr double free_width = 0.70, free_height = 0.75, bar_shift = 0.07;
   const double scale = std::max({half_height / free_height, half_width / free_width * height / width, 1e-12});
   pixels_per_metre_ = height / (2 * scale);
   const Vec3 focus = centre + (2 * bar_shift * scale * width / height) * right;

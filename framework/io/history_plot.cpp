@@ -32,6 +32,7 @@ namespace {
 // Colours that stay apart for the colour-blind (Okabe and Ito, "Color Universal Design", 2008), darkest first.
 constexpr unsigned line_colors[] = {0x0072b2, 0xd55e00, 0x009e73, 0xcc79a7, 0xe69f00,
                                     0x56b4e9, 0x222222, 0x8c6d31, 0x7f7f7f};
+constexpr int line_types[] = {vtkPen::DASH_LINE, vtkPen::DASH_DOT_LINE, vtkPen::DOT_LINE, vtkPen::DASH_DOT_DOT_LINE};
 constexpr std::size_t most_points = 4000;    // per line; more than any picture has pixels
 constexpr double least_shown_error = 1e-17;  // zero has no place on a logarithmic axis
 
@@ -154,8 +155,9 @@ void add_chart(vtkContextScene& scene, const HistoryTable& table, const PlotGrou
     const unsigned color = line_colors[i % std::size(line_colors)];
     line->SetColor(static_cast<unsigned char>(color >> 16), static_cast<unsigned char>(color >> 8),
                    static_cast<unsigned char>(color), 255);
-    line->SetWidth(2.2F);
-    line->GetPen()->SetLineType(i < std::size(line_colors) ? vtkPen::SOLID_LINE : vtkPen::DASH_LINE);
+    // Rows of a ledger often coincide: later ones are thinner and broken, so that those below stay visible.
+    line->SetWidth(group.columns.size() > 4 && i < 4 ? 3.0F : 2.2F);
+    line->GetPen()->SetLineType(i < 4 ? vtkPen::SOLID_LINE : line_types[(i - 4) % std::size(line_types)]);
   }
   style_axis(*chart->GetAxis(vtkAxis::BOTTOM), title_of("time", scales.time.name), font);
   style_axis(*chart->GetAxis(vtkAxis::LEFT), title_of(group.quantity, scales.value.name), font);

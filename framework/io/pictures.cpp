@@ -50,6 +50,8 @@ struct Subject {
 Subject make_subject(const std::string& folder, const std::string& component, const PictureOptions& options) {
   Subject subject{RunFrames(folder, component), {}};
   const std::vector<std::string> possible = candidates(subject.frames, options);
+  for (const std::string& field : possible)
+    if (!subject.frames.is_cut()) subject.frames.cut_if_hidden(field);
   subject.frames.scan(possible);
   for (const std::string& field : possible)
     if (!options.fields.empty() || varies(subject.frames, field)) subject.fields.push_back(field);

@@ -16,7 +16,8 @@ struct PictureOptions {
 
 /// Draws `FOLDER/pictures/COMPONENT_FIELD_NNNN.png` per frame, `FOLDER/pictures/last.png` (all components and their
 /// main field in the last frame, with colour bars in the field's unit) and `FOLDER/pictures/history.png` (energies,
-/// ledger error and extrema of history.csv). Serial. Colour range of a field is that of all frames. Returns the paths.
+/// ledger error and extrema of history.csv). Serial. Colour range of a field is that of all frames. A body whose
+/// outside hides the greatest values is cut open, and its title says so. Returns the paths.
 /// Needs an X display; where there is none, call `ensure_display` first (before MPI is started). Throws Error(file).
 std::vector<std::string> draw_pictures(const std::string& folder, const PictureOptions& options);
 

@@ -109,6 +109,29 @@ void replace_by_magnitude(vtkDataSetAttributes& data, const std::string& name) {
   data.AddArray(magnitude);
 }
 
+void replace_by_magnitudes(vtkPolyData& surface, const std::vector<std::string>& names) {
+  for (const std::string& name : names) {
+    replace_by_magnitude(*surface.GetPointData(), name);
+    replace_by_magnitude(*surface.GetCellData(), name);
+  }
+}
+
+vtkSmartPointer<vtkPolyData> outside_of(vtkUnstructuredGrid* body) {
+  const vtkNew<vtkDataSetSurfaceFilter> skin;
+  skin->SetInputData(body);
+  skin->Update();
+  return skin->GetOutput();
+}
+
+Box box_of(vtkPolyData& surface) {
+  Box box;
+  if (surface.GetNumberOfPoints() == 0) return box;
+  const double* const b = surface.GetBounds();
+  box.add(Vec3{b[0], b[2], b[4]});
+  box.add(Vec3{b[1], b[3], b[5]});
+  return box;
+}
+
 double typical_width(vtkPolyData& surface) {
   double area = 0, perimeter = 0;
   const auto cells = vtk::TakeSmartPointer(surface.GetPolys()->NewIterator());
@@ -190,18 +213,32 @@ const StoredField* RunFrames::find(const std::string& field) const {
   return found == fields_.end() ? nullptr : &*found;
 }
 
-vtkSmartPointer<vtkPolyData> RunFrames::load(std::size_t frame) const {
+vtkSmartPointer<vtkUnstructuredGrid> RunFrames::body(std::size_t frame) const {
   std::vector<vtkSmartPointer<vtkUnstructuredGrid>> read;
   for (const std::string& piece : pieces(frame)) read.push_back(read_piece(piece, &wanted_));
-  const vtkNew<vtkDataSetSurfaceFilter> skin;
-  skin->SetInputData(join(read));
-  skin->Update();
-  vtkSmartPointer<vtkPolyData> surface = skin->GetOutput();
-  for (const std::string& name : wanted_) {
-    replace_by_magnitude(*surface->GetPointData(), name);
-    replace_by_magnitude(*surface->GetCellData(), name);
-  }
+  return join(read);
+}
+
+vtkSmartPointer<vtkPolyData> RunFrames::load(std::size_t frame, Box* whole) const {
+  const vtkSmartPointer<vtkUnstructuredGrid> grid = body(frame);
+  vtkSmartPointer<vtkPolyData> surface = outside_of(grid);
+  if (whole != nullptr) *whole = box_of(*surface);
+  if (cut_) surface = cut_open(surface, section(grid, *cut_), *cut_);
+  replace_by_magnitudes(*surface, wanted_);
   return surface;
+}
+
+void RunFrames::cut_if_hidden(const std::string& field) {
+  wanted_ = {field};
+  const vtkSmartPointer<vtkUnstructuredGrid> grid = body(files_.size() - 1);
+  const vtkSmartPointer<vtkPolyData> outside = outside_of(grid);
+  const Box box = box_of(*outside);
+  if (box.empty()) return;
+  const Cut cut = middle_cut(box);
+  const vtkSmartPointer<vtkPolyData> inside = section(grid, cut);
+  replace_by_magnitudes(*outside, wanted_);
+  replace_by_magnitudes(*inside, wanted_);
+  if (outside_hides(*outside, *inside, field, eye_direction(box))) cut_ = cut;
 }
 
 void RunFrames::scan(const std::vector<std::string>& fields) {
@@ -213,13 +250,10 @@ void RunFrames::scan(const std::vector<std::string>& fields) {
   for (const std::string& name : fields) ranges_[name] = {inf, -inf};
   std::size_t bytes = 0;
   for (std::size_t frame = 0; frame < files_.size(); ++frame) {
-    const vtkSmartPointer<vtkPolyData> surface = load(frame);
+    Box whole;
+    const vtkSmartPointer<vtkPolyData> surface = load(frame, &whole);
     if (frame == 0) faces_ = surface->GetNumberOfCells(), face_width_ = typical_width(*surface);
-    if (surface->GetNumberOfPoints() > 0) {
-      const double* const b = surface->GetBounds();
-      box_.add(Vec3{b[0], b[2], b[4]});
-      box_.add(Vec3{b[1], b[3], b[5]});
-    }
+    box_.add(whole);
     for (auto& [name, range] : ranges_) {
       widen(range, surface->GetPointData()->GetArray(name.c_str()));
       widen(range, surface->GetCellData()->GetArray(name.c_str()));

@@ -3,13 +3,14 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 
-#include "framework/base/box.hpp"
+#include "framework/io/body_section.hpp"
 
 namespace tenon {
 
@@ -38,8 +39,12 @@ class RunFrames {
   const std::vector<StoredField>& fields() const { return fields_; }
   const StoredField* find(const std::string& field) const;
 
-  /// Reads every frame once: the box around all of them and the ranges of `fields`. Surfaces are kept while memory
-  /// lasts.
+  /// Cuts all frames open if the outside of the last one hides the greatest values of `field`. Call before `scan`.
+  void cut_if_hidden(const std::string& field);
+  bool is_cut() const { return cut_.has_value(); }
+
+  /// Reads every frame once: the box around all of them (uncut) and the ranges of `fields`. Surfaces are kept while
+  /// memory lasts.
   void scan(const std::vector<std::string>& fields);
   const Box& box() const { return box_; }
   ValueRange range(const std::string& field) const { return ranges_.at(field); }
@@ -52,7 +57,8 @@ class RunFrames {
   vtkSmartPointer<vtkPolyData> surface(std::size_t frame) const;
 
  private:
-  vtkSmartPointer<vtkPolyData> load(std::size_t frame) const;
+  vtkSmartPointer<vtkPolyData> load(std::size_t frame, Box* whole = nullptr) const;
+  vtkSmartPointer<vtkUnstructuredGrid> body(std::size_t frame) const;
   std::vector<std::string> pieces(std::size_t frame) const;
   void find_fields();
 
@@ -63,6 +69,7 @@ class RunFrames {
   std::vector<std::string> wanted_;
   std::map<std::string, ValueRange> ranges_;
   Box box_;
+  std::optional<Cut> cut_;
   long long faces_ = 0;
   double face_width_ = 0;
   std::vector<vtkSmartPointer<vtkPolyData>> kept_;

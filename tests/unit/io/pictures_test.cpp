@@ -168,6 +168,43 @@ TEST(Pictures, PiecesOfSeveralRanksJoinWithoutInnerFaces) {
   EXPECT_EQ(frames.faces(), 2 * 4 + 4 * 2 * 4);
 }
 
+// Hot along the axis: the cut shows it. Hot outside: no need to cut.
+TEST(Pictures, CutsOpenWhatHidesItsGreatestValues) {
+  const Communicator& comm = testing::communicator();
+  const std::string folder = testing::fresh_folder(comm, "io_pictures_cut");
+  const Mesh mesh = testing::bar_mesh(comm, 8, 12, true);
+  std::vector<double> core, shell;
+  for (const Vec3& x : mesh.coordinates) {
+    const double r = std::hypot(x[0], x[1]) / 3.2e-3;
+    core.push_back(1 - r);
+    shell.push_back(r);
+  }
+  const OutputPart part{"bar",
+                        &mesh,
+                        mesh.coordinates,
+                        {{{"core", Location::node, FieldKind::point_value, 1, "K"}, core},
+                         {{"shell", Location::node, FieldKind::point_value, 1, "K"}, shell}}};
+  VtkOutput output(comm, folder, std::numeric_limits<double>::quiet_NaN());
+  output.write(0, 0, std::span(&part, 1));
+  for (const char* field : {"shell", "core"}) {  // the upper end shows the axis
+    RunFrames open(folder, "bar");
+    open.cut_if_hidden(field);
+    EXPECT_FALSE(open.is_cut()) << field;
+  }
+  for (std::size_t n = 0; n < core.size(); ++n)
+    if (mesh.coordinates[n][2] > 32e-3) core[n] = 0;  // now it does not
+  output.write(0, 0, std::span(&part, 1));
+  RunFrames frames(folder, "bar");
+  frames.cut_if_hidden("core");
+  ASSERT_TRUE(frames.is_cut());
+  frames.scan({"core"});
+  EXPECT_GT(frames.range("core").high, 0.95);
+  EXPECT_NEAR(frames.box().low[1], -3.2e-3, 1e-6);  // of the whole body
+  double bounds[6];
+  frames.surface(0)->GetBounds(bounds);
+  EXPECT_NEAR(bounds[2], 0, 1e-4);  // the near half is gone
+}
+
 TEST(Pictures, ARunThatHasOnlyBegun) {
   const std::string folder = sample_run("io_pictures_begun", 1);
   std::ofstream(folder + "/history.csv") << "time,step,dt,kinetic_energy,energy_error\n0,0,1e-8,3,0\n";
