@@ -15,9 +15,10 @@ struct Overloaded : F... {
 }  // namespace
 
 double element_cost(const MaterialDescription& material) {
-  return std::visit(Overloaded{[](std::monostate) { return 1.0; }, [](const LinearHardeningParameters&) { return 1.1; },
-                               [](const JohnsonCookParameters&) { return 3.0; }},
-                    material.plasticity);
+  return std::visit(
+      Overloaded{[](std::monostate) { return 1.0; }, [](const LinearHardeningParameters&) { return 1.05; },
+                 [](const JohnsonCookParameters&) { return 1.8; }},
+      material.plasticity);
 }
 
 ElementCost mechanics_cost(const MechanicsOptions& options) {

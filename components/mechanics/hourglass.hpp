@@ -14,8 +14,8 @@ struct HourglassVectors {
   Vector<R> eta_zeta, zeta_xi, xi_eta, xi_eta_zeta;
 };
 
-/// Rates gamma_alpha . v of [FB81], eq. 65: the part of the velocity that no linear field explains, so any linear field
-/// gives zero on any shape. Here gamma . v = h . v - L (h . x). m/s, times 8.
+/// Rates gamma_alpha . v of [FB81]: the part of the velocity that no linear field explains, so any linear field
+/// gives zero on any shape. Here gamma . v = h . v - L (h . x). Not divided by 8, m/s.
 template <typename R>
 TENON_KERNEL HourglassVectors<R> hourglass_rates(const HexModes<R>& x, const HexModes<R>& v, const Tensor<R>& l) {
   return {v.eta_zeta - l * x.eta_zeta, v.zeta_xi - l * x.zeta_xi, v.xi_eta - l * x.xi_eta,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // State in a checkpoint. Masses and forces are computed again, to the same bits.
-#include <fmt/core.h>
+#include <functional>
 
 #include "components/mechanics/mechanics.hpp"
 

@@ -38,7 +38,7 @@ void Mechanics::make_blocks() {
   mesh_->comm.throw_if_any(error);
 }
 
-// An eighth of the mass of each element around a node, in ascending global order of the elements: [Hug87, 7.3.2].
+// An eighth of the mass of each element around a node, in ascending global order of the elements: [HUG87, 7.3.2].
 void Mechanics::sum_masses() {
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     const ElementBlock& block = mesh_->blocks[b];

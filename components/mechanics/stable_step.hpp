@@ -31,7 +31,7 @@ TENON_KERNEL R greatest_eigenvalue_bound(const SymmetricTensor<R>& g) {
 
 /// omega^2 of the one-point element is at most 8/(m V) (lambda tr G + 2 mu g): G = sum of b_I b_I, g its greatest
 /// eigenvalue, the mass m shared equally by 8 nodes; for (b.u)^2 <= tr G |u|^2 and |sym(u b)|^2 <= g |u|^2. Both hold
-/// with equality when a cube breathes. An assembly has no mode faster than its fastest element [Hug87, 7.3]. 1/s^2.
+/// with equality when a cube breathes. An assembly has no mode faster than its fastest element [HUG87, 7.3]. 1/s^2.
 template <typename R>
 TENON_KERNEL R frequency_squared_bound(const SymmetricTensor<R>& g, double lambda, double shear, const R& mass,
                                        const R& volume) {
