@@ -2,6 +2,7 @@
 // What runs in every step must not allocate.
 #include <gtest/gtest.h>
 
+#include <cstddef>
 #include <cstdlib>
 #include <new>
 #include <vector>
@@ -10,18 +11,37 @@
 #include "tests/support/test_communicator.hpp"
 
 namespace {
+
 long allocations = 0;
+
+void* counted(std::size_t bytes, std::size_t alignment) {
+  ++allocations;
+  return std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
 }
 
+}  // namespace
+
+void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept {
+  return counted(bytes, alignof(std::max_align_t));
+}
 void* operator new(std::size_t bytes) {
-  ++allocations;
-  if (void* place = std::malloc(bytes)) return place;
+  if (void* place = counted(bytes, alignof(std::max_align_t))) return place;
+  throw std::bad_alloc();
+}
+void* operator new(std::size_t bytes, std::align_val_t alignment) {
+  if (void* place = counted(bytes, static_cast<std::size_t>(alignment))) return place;
   throw std::bad_alloc();
 }
 void operator delete(void* place) noexcept {
   std::free(place);
 }
 void operator delete(void* place, std::size_t) noexcept {
+  std::free(place);
+}
+void operator delete(void* place, std::align_val_t) noexcept {
+  std::free(place);
+}
+void operator delete(void* place, std::size_t, std::align_val_t) noexcept {
   std::free(place);
 }
 
