@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <sstream>
 #include <unordered_map>
-#include <unordered_set>
 
 #include "framework/scene/yaml_text.hpp"
 
@@ -118,10 +117,10 @@ class TreeBuilder : public YAML::EventHandler {
   struct Open {
     TreeNode node;
     YAML::anchor_t anchor;
-    std::optional<TreeMember> member;  ///< its key is read, its value is not
-    bool repeated = false;             ///< the member is a duplicate, to be dropped
-    std::unordered_set<std::string> keys;
-    std::vector<TreeNode> merged;  ///< values of `<<`
+    std::optional<TreeMember> member;           ///< its key is read, its value is not
+    bool repeated = false;                      ///< the member is a duplicate, to be dropped
+    std::unordered_map<std::string, int> keys;  ///< with the line of each
+    std::vector<TreeNode> merged;               ///< values of `<<`
   };
   struct Anchored {
     TreeNode node;
@@ -179,15 +178,13 @@ class TreeBuilder : public YAML::EventHandler {
   void add_key(Open& parent, TreeNode node) {
     if (node.kind != TreeNode::Kind::scalar)
       throw Refused{node.place, "found " + node.described() + " in the place of a key; expected a word, then ':'"};
-    parent.repeated = node.text != "<<" && !parent.keys.insert(node.text).second;
+    parent.repeated = node.text != "<<" && !parent.keys.emplace(node.text, node.place.line).second;
     if (parent.repeated) complain_twice(parent, node);
     parent.member = TreeMember{std::move(node.text), std::move(node.place), {}};
   }
   void complain_twice(const Open& parent, const TreeNode& key) {
-    const TreeMember* first = parent.node.find(key.text);
-    const std::string where = first == nullptr || first->place.line == 0
-                                  ? std::string()
-                                  : " (first in line " + std::to_string(first->place.line) + ")";
+    const int line = parent.keys.at(key.text);
+    const std::string where = line == 0 ? std::string() : " (first in line " + std::to_string(line) + ")";
     diagnostics_.error(key.place.where(), "key " + quoted(key.text) + " is given twice" + where + "; keep one");
   }
   void add_value(Open& parent, TreeNode node) {
@@ -213,7 +210,7 @@ class TreeBuilder : public YAML::EventHandler {
     if (from.kind != TreeNode::Kind::mapping)
       throw Refused{from.place, "found " + from.described() + " after '<<'; expected an alias of a mapping"};
     for (const TreeMember& member : from.members)
-      if (into.keys.insert(member.key).second) into.node.members.push_back(member);
+      if (into.keys.emplace(member.key, member.place.line).second) into.node.members.push_back(member);
   }
 
   const LineIndex& lines_;

@@ -47,18 +47,20 @@ struct BracketRun {
 
 }  // namespace
 
-LineIndex::LineIndex(std::string_view text) : text_(text), starts_{0} {
-  for (std::size_t i = 0; i < text.size(); ++i)
+LineIndex::LineIndex(std::string_view text) : starts_{0} {
+  for (std::size_t i = 0; i < text.size(); ++i) {
     if (text[i] == '\n') starts_.push_back(i + 1);
+    if (continues_letter(text[i])) continuations_.push_back(i);
+  }
   if (starts_.size() > 1 && starts_.back() == text.size()) starts_.pop_back();
 }
 
 int LineIndex::column(int line, int bytes) const {
   if (line < 0 || line >= count()) return bytes + 1;
-  const std::size_t begin = std::min(starts_[static_cast<std::size_t>(line)], text_.size());
-  const std::string_view before = text_.substr(begin, static_cast<std::size_t>(std::max(bytes, 0)));
-  return 1 + static_cast<int>(before.size()) -
-         static_cast<int>(std::count_if(before.begin(), before.end(), continues_letter));
+  const std::size_t begin = starts_[static_cast<std::size_t>(line)];
+  const auto first = std::lower_bound(continuations_.begin(), continuations_.end(), begin);
+  const auto last = std::lower_bound(first, continuations_.end(), begin + static_cast<std::size_t>(std::max(bytes, 0)));
+  return 1 + bytes - static_cast<int>(last - first);
 }
 
 std::optional<TextFault> fault_in_bytes(std::string_view text) {

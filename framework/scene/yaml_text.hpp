@@ -19,8 +19,8 @@ class LineIndex {
   int column(int line, int bytes) const;
 
  private:
-  std::string_view text_;
-  std::vector<std::size_t> starts_;
+  std::vector<std::size_t> starts_;         ///< first byte of each line
+  std::vector<std::size_t> continuations_;  ///< bytes that begin no letter
 };
 
 struct TextFault {
