@@ -180,7 +180,7 @@ void FieldLink::save(CheckpointWriter& file) {
   file.array("transfer." + name() + ".sent", GlobalOrder(source().mesh().comm, from.ids, from.global_count), sent_,
              export_.field.components);
   file.array("transfer." + name() + ".arrived", GlobalOrder(target().mesh().comm, to.ids, to.global_count), received_,
-             1);
+             export_.field.components);
 }
 
 void FieldLink::load(const CheckpointReader& file) {
@@ -190,7 +190,7 @@ void FieldLink::load(const CheckpointReader& file) {
   file.array("transfer." + name() + ".sent", GlobalOrder(source().mesh().comm, from.ids, from.global_count), sent_,
              export_.field.components);
   file.array("transfer." + name() + ".arrived", GlobalOrder(target().mesh().comm, to.ids, to.global_count), received_,
-             1);
+             export_.field.components);
 }
 
 std::int64_t FieldLink::memory() const {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <functional>
 #include <map>
+#include <set>
 
 #include "apps/tenon/scene_meshes.hpp"
 #include "apps/tenon/scene_schema.hpp"
@@ -152,7 +153,14 @@ transfer::FieldLinkOptions link_options(const Value& block, std::string source_f
   return options;
 }
 
+bool is_total(Component& component, const std::string& field) {
+  for (const ExportPort& port : component.exports())
+    if (port.field.name == field) return port.field.kind == FieldKind::total;
+  return false;
+}
+
 void add_transfers(const LoadedScene& scene, Simulation& simulation, Diagnostics& diagnostics) {
+  std::set<std::pair<const Component*, std::string>> taken, filled;
   for (const auto& [name, block] : scene.value.entries("transfers")) {
     const auto [source, source_field] = find_end(simulation, block, "from", diagnostics);
     const auto [target, target_field] = find_end(simulation, block, "to", diagnostics);
@@ -160,6 +168,13 @@ void add_transfers(const LoadedScene& scene, Simulation& simulation, Diagnostics
     if (source == target) {
       diagnostics.error(block.where("to"), "to: a transfer goes to another component than the one it comes from");
       continue;
+    }
+    if (is_total(*source, source_field)) {
+      if (!taken.emplace(source, source_field).second)
+        diagnostics.error(block.where("from"),
+                          "from: '" + source_field + "' is taken by an earlier transfer; a total can go one way only");
+    } else if (!filled.emplace(target, target_field).second) {
+      diagnostics.error(block.where("to"), "to: '" + target_field + "' is set by an earlier transfer already");
     }
     try {
       simulation.add(std::make_unique<transfer::FieldLink>(name, *source, *target,
@@ -170,8 +185,7 @@ void add_transfers(const LoadedScene& scene, Simulation& simulation, Diagnostics
   }
 }
 
-std::vector<std::string> shown_fields(const Component& component_const) {
-  auto& component = const_cast<Component&>(component_const);
+std::vector<std::string> shown_fields(Component& component) {
   std::vector<std::string> names;
   for (const ExportPort& port : component.exports())
     if (port.field.kind != FieldKind::total) names.push_back(port.field.name);
@@ -191,7 +205,7 @@ PointHistory read_point(const Simulation& simulation, const std::string& name, c
     diagnostics.error(block.where(), "point '" + name + "': key 'component' is needed, as the scene has several" +
                                          scene::suggestion("", names));
   if (point.component.empty()) return point;
-  const Component* component = simulation.find(point.component);
+  Component* component = simulation.find(point.component);
   if (!component) {
     diagnostics.error(block.where("component"), "component: there is no component '" + point.component + "'" +
                                                     scene::suggestion(point.component, names));
@@ -219,6 +233,7 @@ OutputPlan read_output(const LoadedScene& scene, const Simulation& simulation, D
   OutputPlan plan;
   const double duration = simulation.end_time() - simulation.start_time();
   plan.frames.time = duration / 20, plan.history.time = duration / 200, plan.log.time = duration / 20;
+  plan.checkpoint.time = duration / 10;
   if (!scene.value.has("output")) return plan;
   const Value output = scene.value.child("output");
   const auto interval = [&](const char* section, Interval& target) {

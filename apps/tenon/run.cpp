@@ -24,22 +24,34 @@ std::string find_checkpoint(const Communicator& comm, Log& log, const RunArgumen
                             const std::string& folder) {
   if (arguments.restart.empty()) return "";
   if (arguments.restart != "latest") return arguments.restart;
-  const std::string newest = CheckpointFiles::newest_valid(comm, folder);
-  if (newest.empty()) log.print("no checkpoint in {} yet: starting at the beginning", folder);
-  return newest;
+  std::vector<std::string> damaged;
+  const std::string newest = CheckpointFiles::newest_valid(comm, folder, &damaged);
+  for (const std::string& message : damaged) log.warning(message);
+  if (!newest.empty()) return newest;
+  if (!damaged.empty())
+    throw Error(ExitCode::file,
+                folder +
+                    ": every checkpoint is damaged; name another file with --restart FILE, or run without "
+                    "--restart to start again");
+  const std::string final_state = folder + "/final.h5";
+  if (comm.any(comm.rank() == 0 && fs::exists(final_state))) return final_state;
+  log.print("no checkpoint in {} yet: starting at the beginning", folder);
+  return "";
 }
 
 // Checkpoints of an earlier run in the same folder would be taken for ours by a later `--restart latest`.
-void prepare_folder(const Communicator& comm, const std::string& folder, bool restart) {
+void prepare_folder(const Communicator& comm, const std::string& folder, const std::string& checkpoint) {
   comm.vote_on_root([&] {
     std::error_code problem;
     fs::create_directories(folder, problem);
     if (problem)
       throw Error(ExitCode::file, folder + ": cannot be made: " + problem.message() + "; choose another with -o");
-    if (restart) return;
-    for (const std::string& old : CheckpointFiles::list(folder)) fs::remove(old);
-    fs::remove(folder + "/final.h5");
     fs::remove(folder + "/summary.json");
+    const fs::path final_state = fs::path(folder) / "final.h5";
+    const bool source = !checkpoint.empty() && fs::exists(final_state) && fs::equivalent(checkpoint, final_state);
+    if (!source) fs::remove(final_state);
+    if (!checkpoint.empty()) return;
+    for (const std::string& old : CheckpointFiles::list(folder)) fs::remove(old);
   });
 }
 
@@ -82,8 +94,6 @@ ExitCode run_scene(const Communicator& comm, const RunArguments& arguments) {
   const std::string checkpoint = find_checkpoint(comm, log, arguments, folder);
   std::unique_ptr<CheckpointReader> reader;
   if (!checkpoint.empty()) reader = std::make_unique<CheckpointReader>(comm, checkpoint);
-  prepare_folder(comm, folder, reader != nullptr);
-  comm.vote([&] { log.open(folder + "/log.txt", reader != nullptr); });
   if (reader) log.print("continuing from {}", checkpoint);
 
   StopRequest stop;
@@ -91,8 +101,12 @@ ExitCode run_scene(const Communicator& comm, const RunArguments& arguments) {
   HistoryOutput* history = nullptr;
   add_observers(simulation, built.output, folder, history);
   simulation.initialize(reader.get());
-  print_warnings(log, built);
+  const bool restarted = reader != nullptr;
   reader.reset();
+  // All that can be refused has been: only now is anything written.
+  prepare_folder(comm, folder, checkpoint);
+  comm.vote([&] { log.open(folder + "/log.txt", restarted); });
+  print_warnings(log, built);
   simulation.run();
 
   print_transfers(simulation);

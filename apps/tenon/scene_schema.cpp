@@ -56,7 +56,8 @@ Schema output_schema() {
   history.text("every", "Interval, as `1 us` or `10 steps`. Without it: two hundred over the run.");
   history.named("points", point_schema(), "Point histories by name.");
   Schema checkpoint("Checkpoints (HDF5). The last two are kept, and the final state always stands as final.h5.");
-  checkpoint.text("every", "Interval, as `10 us` or `1000 steps`. Without it: only at the end or on SIGTERM.");
+  checkpoint.text(
+      "every", "Interval, as `10 us` or `1000 steps`. Without it: ten over the run. One is also written on SIGTERM.");
   Schema log("Lines in the log.");
   log.text("every", "Interval, as `4 us` or `500 steps`. Without it: twenty over the run.");
   Schema s("What is written, and how often.");

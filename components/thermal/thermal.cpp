@@ -83,11 +83,13 @@ StepLimiter Thermal::limiter() {
   const double dt = time_step();
   if (options_.fixed_step && dt == *options_.fixed_step) return {dt, "time_step.fixed"};
   const auto& mine = matrix_.stiffest();
-  const bool has_it = mine.block != no_index && mine.eigenvalue == mesh_->comm.max(mine.eigenvalue);
+  const double greatest = mesh_->comm.max(mine.block == no_index ? 0.0 : mine.eigenvalue);
+  const bool has_it = mine.block != no_index && mine.eigenvalue == greatest;
   const GlobalId id =
       has_it ? mesh_->blocks[static_cast<std::size_t>(mine.block)].ids[static_cast<std::size_t>(mine.element)]
              : no_element;
-  const bool speaks = has_it && id == mesh_->comm.min(std::int64_t{id});
+  const std::int64_t first = mesh_->comm.min(std::int64_t{id});
+  const bool speaks = has_it && id == first;
   const auto root = mesh_->comm.min(std::int64_t{speaks ? mesh_->comm.rank() : mesh_->comm.size()});
   if (root == mesh_->comm.size()) return {dt, "nothing: there are no elements"};
   std::string text = speaks ? describe(mine.block, mine.element) : "";

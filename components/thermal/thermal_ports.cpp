@@ -89,7 +89,7 @@ std::vector<HistoryValue> Thermal::history_values() {
 }
 
 std::vector<SkipCount> Thermal::skips() const {
-  return {{name() + ": conductivity kept (no displacement)", skipped_assemblies_}};
+  return {{"conductivity kept (no displacement)", skipped_assemblies_}};
 }
 
 std::vector<std::pair<std::string, std::vector<double>*>> Thermal::owned_state() {

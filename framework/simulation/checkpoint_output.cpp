@@ -3,9 +3,13 @@
 
 namespace tenon {
 
-void CheckpointOutput::start(Simulation& simulation, bool) {
+void CheckpointOutput::start(Simulation& simulation, bool restarted) {
+  // What an earlier run wrote after this state belongs to a history that is given up here.
+  if (restarted)
+    simulation.comm().vote_on_root([&] { CheckpointFiles::remove_later_than(options_.folder, simulation.steps()); });
   clock_ = IntervalClock(options_.every, simulation.start_time());
   clock_.reset(simulation.time(), simulation.steps());
+  if (simulation.done()) write(simulation, options_.folder + "/final.h5");
 }
 
 void CheckpointOutput::after_step(Simulation& simulation, bool last) {

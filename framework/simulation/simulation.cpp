@@ -4,9 +4,53 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 
 namespace tenon {
+
+namespace {
+
+std::uint64_t mixed(std::uint64_t x) {  // the finaliser of splitmix64
+  x ^= x >> 30, x *= 0xbf58476d1ce4e5b9u;
+  x ^= x >> 27, x *= 0x94d049bb133111ebu;
+  return x ^ (x >> 31);
+}
+
+// Collective. A sum over nodes and elements, so it does not depend on the ranks; it tells meshes of equal size apart.
+std::int64_t fingerprint(const Mesh& mesh) {
+  std::uint64_t sum = 0;
+  for (const LocalIndex n : mesh.owned_nodes) {
+    const auto i = static_cast<std::size_t>(n);
+    std::uint64_t h = mixed(static_cast<std::uint64_t>(mesh.node_ids[i]) + 1);
+    for (const double x : mesh.coordinates[i]) h = mixed(h ^ std::bit_cast<std::uint64_t>(x));
+    sum += h;
+  }
+  for (const ElementBlock& block : mesh.blocks)
+    for (LocalIndex e = 0; e < block.size(); ++e) {
+      if (block.owners[static_cast<std::size_t>(e)] != mesh.comm.rank()) continue;
+      std::uint64_t h = mixed(static_cast<std::uint64_t>(block.ids[static_cast<std::size_t>(e)]) + 0x9e3779b97f4a7c15u);
+      for (const LocalIndex n : block.nodes(e))
+        h = mixed(h ^ static_cast<std::uint64_t>(mesh.node_ids[static_cast<std::size_t>(n)]));
+      sum += h;
+    }
+  return mesh.comm.sum(static_cast<std::int64_t>(sum));
+}
+
+// Collective. Throws Error(file) if the checkpoint is of another component or mesh.
+void check_fit(const CheckpointReader& file, const Component& component) {
+  const auto refuse = [&](const char* what) {
+    throw Error(ExitCode::file,
+                fmt::format("the checkpoint does not fit the scene: component '{}' {}; restart with the scene "
+                            "that wrote it, or start without --restart",
+                            component.name(), what));
+  };
+  if (!file.has(component.name() + ".type")) refuse("is not in it");
+  if (file.text(component.name() + ".type") != component.type()) refuse("is of another type there");
+  if (file.integer(component.name() + ".mesh") != fingerprint(component.mesh())) refuse("has another mesh there");
+}
+
+}  // namespace
 
 Simulation::Simulation(const Communicator& comm, Log& log, double start_time, double end_time)
     : comm_(comm), log_(log), start_time_(start_time), end_time_(end_time), time_(start_time) {}
@@ -49,8 +93,13 @@ void Simulation::initialize(const CheckpointReader* checkpoint) {
         if (coupling->runs_at_start()) coupling->run();
     }
   }
+  restarted_ = checkpoint != nullptr;
   refuse_too_many_steps();
-  for (const auto& observer : observers_) observer->start(*this, checkpoint != nullptr);
+}
+
+void Simulation::start() {
+  started_ = true;
+  for (const auto& observer : observers_) observer->start(*this, restarted_);
 }
 
 void Simulation::refuse_too_many_steps() {
@@ -68,6 +117,7 @@ void Simulation::refuse_too_many_steps() {
 }
 
 void Simulation::run() {
+  if (!started_) start();
   try {
     while (!done() && !stopped_) step();
   } catch (const Error&) {
@@ -81,7 +131,7 @@ void Simulation::step() {
     throw Error(
         ExitCode::unstable,
         fmt::format("{} steps were taken up to {:.6g} s and the end is at {:.6g} s: the time step has shrunk; look "
-                    "at the limiting element in the log, or raise maximum_steps and continue with --restart latest",
+                    "at the limiting element in the log, or raise maximum_steps",
                     steps_, time_, end_time_));
   choose_leader();
   dt_ = leader_step();
@@ -90,7 +140,8 @@ void Simulation::step() {
   ++steps_;
   run_couplings(leader_, nullptr, CouplingSchedule::source_step);
   follow();
-  stopped_ = stop_ && stop_->asked(comm_, steps_);
+  const bool asked = stop_ && stop_->asked(comm_, steps_);
+  stopped_ = asked && !done();
   for (const auto& observer : observers_) observer->after_step(*this, done() || stopped_);
 }
 
@@ -154,13 +205,21 @@ void Simulation::save(CheckpointWriter& file) {
   ledger_->save(file);
   for (const auto& component : components_) {
     file.scalar(component->name() + ".time", component->time());
+    file.text(component->name() + ".type", std::string(component->type()));
+    file.integer(component->name() + ".mesh", fingerprint(component->mesh()));
     component->save(file);
   }
   for (const auto& coupling : couplings_) coupling->save(file);
 }
 
 void Simulation::load(const CheckpointReader& file) {
+  for (const auto& component : components_) check_fit(file, *component);
   time_ = file.scalar("time");
+  if (time_ > end_time_)
+    throw Error(ExitCode::usage,
+                fmt::format("the checkpoint is of {:.6g} s, after end_time ({:.6g} s): give a later end_time, "
+                            "or start without --restart",
+                            time_, end_time_));
   dt_ = file.scalar("dt");
   steps_ = file.integer("step");
   leader_ = find(file.text("leader"));

@@ -49,6 +49,9 @@ class Simulation {
   void initialize(const CheckpointReader* checkpoint = nullptr);
   /// Local. A run that would need more steps than this is refused by `initialize`, and ends when it has taken so many.
   void limit_steps(std::int64_t maximum) { maximum_steps_ = maximum; }
+  /// Collective. Lets the observers begin; `run` does it if it was not done. The first moment at which anything is
+  /// written.
+  void start();
   /// Collective. One step of the leader. Must not be called when done().
   void step();
   /// Collective. Steps until done or until a stop is requested. If a step throws, observers keep what they can first.
@@ -91,7 +94,7 @@ class Simulation {
   Log& log_;
   double start_time_, end_time_, time_, dt_ = 0;
   std::int64_t steps_ = 0, maximum_steps_ = std::numeric_limits<std::int64_t>::max();
-  bool stopped_ = false;
+  bool stopped_ = false, restarted_ = false, started_ = false;
   StopRequest* stop_ = nullptr;
   PhaseTimers timers_;
   std::vector<std::unique_ptr<Component>> components_;

@@ -49,6 +49,7 @@ mpirun --oversubscribe -n 2 "$tenon" check "$(changed 's/density: 8.96 g.cm^3/de
 run 1 "$small" kept
 before=$(ls -l --time-style=full-iso kept | md5sum)
 refused 2 "end_time" run "$(changed '/^end_time/d')" -o kept
+refused 2 "maximum_steps" run "$small" --set "end_time=1000 s" -o kept
 [ "$before" = "$(ls -l --time-style=full-iso kept | md5sum)" ] || { echo "a refused run touched the results"; failures=$((failures + 1)); }
 [ $failures -eq 0 ] && echo "1 passed, 0 failed"
 exit $failures

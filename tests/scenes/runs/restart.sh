@@ -22,4 +22,12 @@ cmp <(grep -o 'timestep="[^"]*"' whole/all.pvd) <(grep -o 'timestep="[^"]*"' sto
 # From a named file, into a folder of its own.
 run 1 "$main_job" forked --restart "$(ls stopped/checkpoint-*.h5 | head -1)"
 same_state whole forked
+# A run that is at its end already only writes the final state again; a longer one goes on from it.
+rm forked/checkpoint-*.h5
+run 2 "$main_job" forked --restart latest
+same_state whole forked
+code=0
+mpirun --oversubscribe -n 2 "$tenon" run "$(dirname "$0")/../fuzz/small.yaml" -o forked --restart latest >other.log 2>&1 || code=$?
+[ $code -eq 3 ] || { echo "a checkpoint of another scene gave exit code $code"; cat other.log; exit 1; }
+same_state whole forked
 echo "1 passed, 0 failed"
