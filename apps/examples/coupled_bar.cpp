@@ -66,8 +66,9 @@ void run(const Communicator& comm) {
       "heat", solid, heat,
       transfer::FieldLinkOptions{
           "plastic_heat", "heat", {}, transfer::Configuration::reference, CouplingSchedule::source_step}));
-  simulation.add(std::make_unique<transfer::FieldLink>("softening", heat, solid,
-                                                       transfer::FieldLinkOptions{"temperature", "temperature"}));
+  transfer::FieldLinkOptions softening;
+  softening.source_field = softening.target_field = "temperature";
+  simulation.add(std::make_unique<transfer::FieldLink>("softening", heat, solid, softening));
   simulation.initialize();
   simulation.run();
 

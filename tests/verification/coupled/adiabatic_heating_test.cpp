@@ -47,8 +47,9 @@ Outcome outcome(const BoxShape& thermal_mesh, double hardening_modulus, Coupling
   simulation.add(std::make_unique<transfer::FieldLink>(
       "heat", solid, heat,
       transfer::FieldLinkOptions{"plastic_heat", "heat", {}, transfer::Configuration::reference, schedule}));
-  simulation.add(std::make_unique<transfer::FieldLink>("temperature", heat, solid,
-                                                       transfer::FieldLinkOptions{"temperature", "temperature"}));
+  transfer::FieldLinkOptions back;
+  back.source_field = back.target_field = "temperature";
+  simulation.add(std::make_unique<transfer::FieldLink>("temperature", heat, solid, back));
   simulation.initialize();
   simulation.run();
   Outcome result;
