@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "components/materials/material.hpp"
 
+#include "components/materials/material_model.hpp"
+
 #include "framework/base/error.hpp"
 
 namespace tenon {
@@ -14,6 +16,14 @@ AnyMaterial make_material(const MaterialDescription& description) {
   if (const auto* flow = std::get_if<JohnsonCookParameters>(&description.plasticity))
     return JohnsonCook{*description.elastic, *flow};
   return LinearElastic{*description.elastic};
+}
+
+std::shared_ptr<const MaterialModel> make_material_model(const MaterialDescription& description) {
+  return std::visit(
+      [&](const auto& material) -> std::shared_ptr<const MaterialModel> {
+        return std::make_shared<MaterialModelOf<std::decay_t<decltype(material)>>>(material, description.failure);
+      },
+      make_material(description));
 }
 
 int state_size(const AnyMaterial& material) {

@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "components/materials/elasticity.hpp"
+#include "components/materials/failure.hpp"
 #include "components/materials/j2_linear_hardening.hpp"
 #include "components/materials/johnson_cook.hpp"
 #include "components/materials/linear_elastic.hpp"
@@ -32,6 +33,7 @@ struct MaterialDescription {
   std::optional<Elasticity> elastic;  ///< its `expansion` comes from the thermal block
   std::variant<std::monostate, LinearHardeningParameters, JohnsonCookParameters> plasticity;
   std::optional<ThermalProperties> thermal;
+  std::optional<FailureCriterion> failure;
 };
 
 /// Chosen once per block or batch by std::visit, never per point.
