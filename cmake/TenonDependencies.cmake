@@ -17,6 +17,7 @@ set_target_properties(Zoltan::zoltan PROPERTIES IMPORTED_LOCATION ${ZOLTAN_LIBRA
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(fmt REQUIRED)
 find_package(yaml-cpp REQUIRED)
+find_package(muparser REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(nlohmann_json REQUIRED)
 

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Values that change with time: constants, tables, sines and smooth steps.
+// Values that change with time: constants, tables, sines, smooth steps and formulas.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <utility>
 #include <vector>
+
+#include "framework/base/formula.hpp"
 
 namespace tenon {
 
@@ -40,6 +43,13 @@ class TimeFunction {
     f.a_ = first, f.b_ = last, f.c_ = start, f.d_ = end;
     return f;
   }
+  /// A formula that does not use the place.
+  static TimeFunction formula(std::shared_ptr<const Formula> formula) {
+    TimeFunction f;
+    f.form_ = Form::formula;
+    f.formula_ = std::move(formula);
+    return f;
+  }
 
   double operator()(double t) const {
     switch (form_) {
@@ -51,6 +61,8 @@ class TimeFunction {
         const double s = std::clamp((t - c_) / (d_ - c_), 0.0, 1.0);
         return a_ + (b_ - a_) * s * s * s * (10 + s * (6 * s - 15));
       }
+      case Form::formula:
+        return formula_->value(t, {0, 0, 0});
       case Form::table:
         break;
     }
@@ -59,7 +71,7 @@ class TimeFunction {
   bool is_constant() const { return form_ == Form::constant; }
 
  private:
-  enum class Form { constant, table, sine, smooth_step };
+  enum class Form { constant, table, sine, smooth_step, formula };
   double in_table(double t) const {
     const auto next = std::upper_bound(points_.begin(), points_.end(), t,
                                        [](double x, const std::pair<double, double>& p) { return x < p.first; });
@@ -72,6 +84,7 @@ class TimeFunction {
   Form form_ = Form::constant;
   double a_ = 0, b_ = 0, c_ = 0, d_ = 0;
   std::vector<std::pair<double, double>> points_;
+  std::shared_ptr<const Formula> formula_;
 };
 
 }  // namespace tenon

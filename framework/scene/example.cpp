@@ -57,7 +57,10 @@ std::string inline_example(const Key& key) {
   switch (key.type) {
     case Key::Type::quantity:
     case Key::Type::function:
+    case Key::Type::field_function:
       return quantity;
+    case Key::Type::table:
+      return fmt::format("[[{}, {}]]", with_unit(0, key.x_unit), quantity);
     case Key::Type::integer:
       return integer_example(key);
     case Key::Type::flag:

@@ -32,10 +32,19 @@ since 5 degC would be a point on a scale.
 velocity: {table: [[0 s, 0 m/s], [2 us, 4 m/s], [5 us, 0 m/s]]}  # linear between the points, constant outside
 velocity: {sine: {amplitude: 4 m/s, period: 1 ms, phase: 90 degree, offset: 1 m/s}}
 velocity: {smooth_step: {from: 0 m/s, to: 4 m/s, start: 0 s, end: 5 us}}  # without a jump in the acceleration
+velocity: {expression: 4 * exp(-t / 1e-3), unit: m/s}
 ```
 
 The sine is offset + amplitude sin(2 pi t / period + phase). The phase is 0 and the start 0 s if left out; so is the
-offset, but not that of a temperature. The times of a table ascend.
+offset, but not that of a temperature. The times of a table ascend. In an expression all is SI: `t` is the time in s, and
+where the type is "function of place" `x`, `y`, `z` are the place in the undeformed body in m. The result is in the SI unit
+of the key, or in `unit`. It has `+ - * / ^`, comparisons, `&& ||`, `condition ? a : b`, `pi` and the functions sin, cos,
+tan, asin, acos, atan, sinh, cosh, tanh, asinh, acosh, atanh, exp, ln (also as log), log10, sqrt, abs, erf, erfc, floor,
+ceil, round, step (0 below zero, 1 from zero on), sign, atan2(y, x), pow, mod, min, max (of two) and bessel_j(order, x);
+with a comma inside it stands in quotes. The range of the key is not checked where it varies.
+
+**Tables.** A key of the type "table" holds points over something else than time, such as
+`[[0, 400 MPa], [0.1, 450 MPa]]`, ascending in the first column; a quantity alone is one point at zero.
 
 **Names.** Named blocks (materials and the like) bear names of your choice: a letter, then letters, digits, `_` and `-`.
 Anchors, aliases and merge keys of YAML (`&name`, `*name`, `<<: *name`) save repetition.
@@ -124,6 +133,10 @@ std::string type_text(const Key& key, const std::string& link) {
       return "word or list of words";
     case Key::Type::function:
       return "function, " + unit_text(key);
+    case Key::Type::field_function:
+      return "function of place, " + unit_text(key);
+    case Key::Type::table:
+      return fmt::format("table, {} over {}{}", unit_text(key), key.x_name, key.x_unit == "1" ? "" : ", " + key.x_unit);
     case Key::Type::object:
     case Key::Type::variants:
       return "[block](#" + link + ")";

@@ -37,9 +37,9 @@ const Key* Schema::find(const std::string& name) const {
 Schema& Schema::add(Key key) {
   if (key.name.empty() || find(key.name) != nullptr)
     throw std::logic_error("schema '" + doc_ + "' has the key '" + key.name + "' twice, or a key without a name");
-  if (!key.unit.empty()) {
-    const std::string in_si = "1 " + (key.unit == temperature_difference ? std::string("K") : key.unit);
-    if (key.unit != "1") parse_quantity(in_si, key.unit);
+  for (const std::string& unit : {key.unit, key.x_unit}) {
+    const std::string in_si = "1 " + (unit == temperature_difference ? std::string("K") : unit);
+    if (!unit.empty() && unit != "1") parse_quantity(in_si, unit);
   }
   check_default(key);
   keys_.push_back(std::move(key));
@@ -98,6 +98,16 @@ Schema& Schema::texts(std::string name, std::string doc) {
 }
 Schema& Schema::function(std::string name, std::string unit, std::string doc) {
   return add(make_key(std::move(name), Key::Type::function, std::move(doc), std::move(unit)));
+}
+Schema& Schema::field_function(std::string name, std::string unit, std::string doc) {
+  return add(make_key(std::move(name), Key::Type::field_function, std::move(doc), std::move(unit)));
+}
+Schema& Schema::table(std::string name, std::string x_name, std::string x_unit, std::string unit, std::string doc,
+                      Range range) {
+  Key key = make_key(std::move(name), Key::Type::table, std::move(doc), std::move(unit), range);
+  key.x_name = std::move(x_name);
+  key.x_unit = std::move(x_unit);
+  return add(std::move(key));
 }
 Schema& Schema::object(std::string name, Schema nested, std::string doc) {
   return add(make_block(std::move(name), Key::Type::object, std::move(nested), std::move(doc)));

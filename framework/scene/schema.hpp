@@ -40,16 +40,19 @@ struct Key {
     reals,     ///< list of quantities of one unit
     vector,    ///< three quantities of one unit
     texts,     ///< list of words, or one word
-    function,  ///< quantity, or {table: [[t, v], ...]}, {sine: {...}}, {smooth_step: {...}}
-    object,    ///< nested mapping of schema `nested`
-    list,      ///< list of mappings of schema `nested`
-    named,     ///< mapping of named blocks, each of schema `nested`
-    variants   ///< mapping of one of several schemas, chosen by its key `type`; see `variants`
+    function,  ///< of time: quantity, or {table: [[t, v], ...]}, {sine: {...}}, {smooth_step: {...}}, {expression: ...}
+    field_function,  ///< of time and place: as function, and its expression may use x, y, z
+    table,           ///< points [[x, value], ...], x ascending in unit `x_unit`; a lone quantity is one point at x = 0
+    object,          ///< nested mapping of schema `nested`
+    list,            ///< list of mappings of schema `nested`
+    named,           ///< mapping of named blocks, each of schema `nested`
+    variants         ///< mapping of one of several schemas, chosen by its key `type`; see `variants`
   };
   std::string name;
   Type type = Type::text;
-  std::string doc;   ///< one sentence for the reference
-  std::string unit;  ///< SI unit of quantities
+  std::string doc;             ///< one sentence for the reference
+  std::string unit;            ///< SI unit of quantities
+  std::string x_name, x_unit;  ///< what a table is over, as "plastic strain", and its SI unit
   Range range;
   bool required = false;
   std::string default_value;  ///< as it would be written in a scene; empty: none
@@ -77,6 +80,9 @@ class Schema {
   Schema& vector(std::string name, std::string unit, std::string doc, std::string default_value = "");
   Schema& texts(std::string name, std::string doc);
   Schema& function(std::string name, std::string unit, std::string doc);
+  Schema& field_function(std::string name, std::string unit, std::string doc);
+  Schema& table(std::string name, std::string x_name, std::string x_unit, std::string unit, std::string doc,
+                Range range = {});
   Schema& object(std::string name, Schema nested, std::string doc);
   Schema& list(std::string name, Schema nested, std::string doc);
   Schema& named(std::string name, Schema nested, std::string doc);

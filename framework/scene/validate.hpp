@@ -17,7 +17,7 @@ namespace tenon::scene {
 /// "greater than 0 kg/m^3 and at most 3 kg/m^3" in a unit of the user; empty without bounds.
 std::string described(const Range& range, const Conversion& conversion, const std::string& unit);
 
-/// The forms of a function of time besides the constant, as a schema of the keys table, sine and smooth_step.
+/// The forms of a function besides the constant, as a schema of the keys table, sine, smooth_step and expression.
 Schema function_schema(const Key& key);
 
 class Validator {
@@ -48,7 +48,11 @@ class Validator {
   Content reals(const TreeNode& node, const Key& key, const Context& context);
   Content texts(const TreeNode& node, const Context& context);
   Content function(const TreeNode& node, const Key& key, const Context& context);
-  std::optional<TimeFunction> table(const TreeNode& node, const Key& key, const Context& context);
+  std::optional<SpaceTimeFunction> any_function(const TreeNode& node, const Key& key, const Context& context);
+  std::optional<SpaceTimeFunction> expression(const TreeNode& node, const Key& key, const Context& context);
+  Content table(const TreeNode& node, const Key& key, const Context& context);
+  std::optional<std::vector<std::pair<double, double>>> points(const TreeNode& node, const Key& key,
+                                                               const Context& context);
   Content list(const TreeNode& node, const Key& key, const Context& context);
   Content named(const TreeNode& node, const Key& key, const Context& context);
   std::optional<Value> block(const TreeNode& node, const Key& key, const Context& context);

@@ -34,7 +34,12 @@ std::string expected(const Key& key) {
       return "a word or a list of words";
     case Key::Type::function:
       return example.name + " such as " + example.example +
-             ", or a function of time: {table: ...}, {sine: ...}, {smooth_step: ...}";
+             ", or a function of time: {table: ...}, {sine: ...}, {smooth_step: ...}, {expression: ...}";
+    case Key::Type::field_function:
+      return example.name + " such as " + example.example +
+             ", or a function of time and place: {expression: ...}, {table: ...}, {sine: ...}, {smooth_step: ...}";
+    case Key::Type::table:
+      return example.name + " such as " + example.example + ", or points [" + key.x_name + ", value]";
     case Key::Type::list:
       return "a list of mappings, each after a '-'";
     case Key::Type::named:
@@ -71,7 +76,10 @@ Validator::Content Validator::content(const TreeNode& node, const Key& key, cons
     case Key::Type::texts:
       return texts(node, context);
     case Key::Type::function:
+    case Key::Type::field_function:
       return function(node, key, context);
+    case Key::Type::table:
+      return table(node, key, context);
     case Key::Type::object:
       return mapping(node, *key.nested, context);
     case Key::Type::list:

@@ -73,6 +73,12 @@ std::vector<std::string> Value::texts(const std::string& key) const {
 TimeFunction Value::function(const std::string& key) const {
   return content<TimeFunction>(*data_, key, "a function of time");
 }
+SpaceTimeFunction Value::field_function(const std::string& key) const {
+  return content<SpaceTimeFunction>(*data_, key, "a function of time and place");
+}
+std::vector<std::pair<double, double>> Value::table(const std::string& key) const {
+  return list_content<std::vector<std::pair<double, double>>>(*data_, key, "a table");
+}
 Value Value::child(const std::string& key) const {
   return content<Value>(*data_, key, "a mapping");
 }

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "framework/base/space_time_function.hpp"
 #include "framework/base/time_function.hpp"
 #include "framework/base/types.hpp"
 
@@ -61,6 +62,9 @@ class Value {
   Vec3 vector(const std::string& key) const;
   std::vector<std::string> texts(const std::string& key) const;
   TimeFunction function(const std::string& key) const;
+  SpaceTimeFunction field_function(const std::string& key) const;
+  /// Points (x, value), x ascending; empty if absent.
+  std::vector<std::pair<double, double>> table(const std::string& key) const;
   /// A nested mapping. If the scene leaves it out (has() is false) and its keys all have defaults, those.
   Value child(const std::string& key) const;
   /// A list of mappings; empty if absent, as `reals` and `texts` are.

@@ -22,7 +22,8 @@ struct NamedBlock {
 struct Value::Data {
   using Content =
       std::variant<std::monostate, double, std::int64_t, bool, std::string, std::vector<double>,
-                   std::vector<std::string>, TimeFunction, Value, std::vector<Value>, std::vector<NamedBlock>>;
+                   std::vector<std::string>, TimeFunction, SpaceTimeFunction, std::vector<std::pair<double, double>>,
+                   Value, std::vector<Value>, std::vector<NamedBlock>>;
   /// One key of the schema.
   struct Slot {
     std::string name;

@@ -167,7 +167,7 @@ TEST(Complaints, Functions) {
                     "8:43: " + at + ".table: '1 m': it is a length; expected a time such as 80 us",
                     "8:48: " + at + ".table: '2 s': it is a time; expected a velocity such as 227 m/s"}));
   EXPECT_EQ(velocity("{sin: {}}"),
-            (Errors{"8:9: " + at + ": missing key: one of 'table', 'sine', 'smooth_step' must be given",
+            (Errors{"8:9: " + at + ": missing key: one of 'table', 'sine', 'smooth_step', 'expression' must be given",
                     "8:20: " + at + ": unknown key 'sin', did you mean 'sine'?"}));
   EXPECT_EQ(velocity("{sine: {amplitude: 1, period: 0 ms}}"),
             (Errors{"8:49: " + at + ".sine.period: '0 ms' is out of range; it must be greater than 0 ms"}));
@@ -176,7 +176,7 @@ TEST(Complaints, Functions) {
   EXPECT_EQ(velocity("{table: [[0, 1]], sine: {amplitude: 1, period: 1}}"),
             (Errors{"8:37: " + at +
                     ": 'sine' and 'table' exclude each other; give exactly one of 'table', 'sine', "
-                    "'smooth_step'"}));
+                    "'smooth_step', 'expression'"}));
 }
 
 TEST(Complaints, TheAmplitudeOfATemperatureIsADifference) {

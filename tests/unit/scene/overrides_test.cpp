@@ -35,12 +35,12 @@ TEST(Overrides, CreateKeysAndTheBlocksAround) {
   const scene::Value root = with({{"materials.copper.poissons_ratio", "0.34"},
                                   {"output.checkpoint", "{}"},
                                   {"output.checkpoint.interval", "1 us"},
-                                  {"components.body.boundary.3", "{nodeset: z}"},
-                                  {"components.body.boundary.3.velocity", "{sine: {amplitude: 1, period: 2}}"},
+                                  {"components.body.boundary.5", "{nodeset: z}"},
+                                  {"components.body.boundary.5.velocity", "{sine: {amplitude: 1, period: 2}}"},
                                   {"components.extra.type", "idle"}});
   EXPECT_EQ(root.entries("materials")[0].second.real("poissons_ratio"), 0.34);
   EXPECT_EQ(root.child("output").child("checkpoint").real("interval"), 1e-6);
-  EXPECT_EQ(root.entries("components")[0].second.items("boundary").size(), 4U);
+  EXPECT_EQ(root.entries("components")[0].second.items("boundary").size(), 6U);
   EXPECT_EQ(root.entries("components").back().first, "extra");
   EXPECT_EQ(scene::to_string(root.entries("materials")[0].second.where("poissons_ratio")),
             "--set materials.copper.poissons_ratio");
@@ -80,13 +80,13 @@ TEST(Overrides, PathsThatLeadNowhere) {
   EXPECT_EQ(
       complaints(good_scene, {{"components.body.boundary.9.nodeset", "x"}}),
       (Errors{
-          "--set components.body.boundary.9.nodeset: the list (s:25:7) has 3 elements; expected a number from 0 to 3 "
+          "--set components.body.boundary.9.nodeset: the list (s:26:7) has 5 elements; expected a number from 0 to 5 "
           "(the last one adds to the list)"}));
   EXPECT_EQ(
       complaints(good_scene, {{"components.body.boundary.foot.nodeset", "x"}}),
       (Errors{
-          "--set components.body.boundary.foot.nodeset: 'foot' is not a place in the list (s:25:7); expected a number "
-          "from 0 to 3 (the last one adds to the list)"}));
+          "--set components.body.boundary.foot.nodeset: 'foot' is not a place in the list (s:26:7); expected a number "
+          "from 0 to 5 (the last one adds to the list)"}));
   for (const char* path : {"", ".", "a..b", "end_time.", ".end_time"}) {
     const Errors errors = complaints(good_scene, {{path, "5"}});
     ASSERT_EQ(errors.size(), 1U) << path;

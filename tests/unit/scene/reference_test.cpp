@@ -53,7 +53,7 @@ TEST(Reference, HasATableRowForEveryKey) {
   EXPECT_TRUE(contains(text, "| `erosion` | true or false | `false` |"));
   EXPECT_TRUE(contains(text, "| `materials` | [named blocks](#materials) |"));
   EXPECT_TRUE(contains(text, "| `boundary` | [list of blocks](#componentsmechanicsboundary) |"));
-  EXPECT_TRUE(contains(text, "Exactly one of `velocity`, `temperature` must be given."));
+  EXPECT_TRUE(contains(text, "Exactly one of `velocity`, `temperature`, `pressure` must be given."));
   EXPECT_TRUE(contains(text, "At most one of `every`, `interval` can be given."));
   EXPECT_TRUE(contains(text, "Johnson-Cook \\| flow stress."));
 }

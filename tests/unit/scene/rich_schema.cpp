@@ -23,6 +23,7 @@ Schema plastic_schema() {
   plastic.required_quantity("density", "kg/m^3", "mass density", Range::positive())
       .quantity("melting_temperature", "K", "where the strength vanishes", "1083 degC", Range::positive())
       .quantity("softening_width", "delta_K", "width of the transition", "5 K")
+      .table("hardening", "plastic strain", "1", "Pa", "yield stress over plastic strain", Range::positive())
       .integer("exponent", "of the softening", "1", {1, 9, false, false});
   return plastic;
 }
@@ -32,10 +33,11 @@ Schema boundary_schema() {
   boundary.texts("nodeset", "where it acts")
       .required()
       .function("velocity", "m/s", "prescribed velocity")
+      .field_function("pressure", "Pa", "pressure that may vary in space")
       .function("temperature", "K", "prescribed temperature")
       .with_range(Range::positive())
       .vector("direction", "1", "direction of the velocity", "[0, 0, 1]")
-      .exactly_one({"velocity", "temperature"});
+      .exactly_one({"velocity", "temperature", "pressure"});
   return boundary;
 }
 
@@ -97,6 +99,7 @@ materials:
     type: johnson_cook
     density: 7.85 g/cm^3
     melting_temperature: 1500 °C
+    hardening: [[0, 400 MPa], [0.1, 450 MPa]]
 components:
   body:
     type: mechanics
@@ -110,6 +113,12 @@ components:
         temperature: {sine: {amplitude: 5 K, period: 1 ms, offset: 20 degC}}
       - nodeset: all
         velocity: {smooth_step: {from: 0, to: 3 m/s, end: 1 ms}}
+      - nodeset: all
+        velocity: {expression: 10 * sin(2*pi*t/1e-3), unit: mm/s}
+      - nodeset: all
+        pressure: {expression: '10 * sin(2*pi*t/1e-3) * exp(-x^2) + max(y, z)',
+                  unit : MPa
+}
     time_step: {type: stable, safety: 0.5}
   rest:
     type: idle

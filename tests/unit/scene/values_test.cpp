@@ -77,7 +77,7 @@ TEST(Values, VariantsOfAMappingAndAList) {
 
 TEST(Values, FunctionsOfTime) {
   const auto boundary = entry(good(), "components", "body").items("boundary");
-  ASSERT_EQ(boundary.size(), 3U);
+  ASSERT_EQ(boundary.size(), 5U);
   const TimeFunction table = boundary[0].function("velocity");
   EXPECT_DOUBLE_EQ(table(1e-6), 2.0);
   EXPECT_DOUBLE_EQ(table(1.0), 1 / 3.6);
