@@ -48,6 +48,10 @@ class ConductionMatrix {
   std::span<const LocalIndex> row_of_node() const { return row_of_node_; }
   LocalIndex rows() const { return static_cast<LocalIndex>(diagonal_.size()); }
   std::span<const double> diagonal() const { return diagonal_; }
+  /// The rest: entries of row r stand in offsets()[r] .. offsets()[r + 1]; columns are local nodes.
+  std::span<const LocalIndex> offsets() const { return offsets_; }
+  std::span<const LocalIndex> columns() const { return columns_; }
+  std::span<const double> values() const { return values_; }
 
   /// Local. out_r = -(K x)_r, as a sum of differences: exactly 0 where x is constant. x: all local nodes; out: rows.
   void conducted(std::span<const double> x, std::span<double> out) const;

@@ -7,18 +7,10 @@
 #include <span>
 #include <vector>
 
-#include "components/thermal/conduction_matrix.hpp"
+#include "components/thermal/heat_system.hpp"
+#include "components/thermal/multigrid.hpp"
 
 namespace tenon::thermal {
-
-/// (diag(d) + factor * off-diagonal of K) x = b, W or J. Rows whose `inverse_diagonal` is 0 are held: x stays what it
-/// was.
-struct HeatSystem {
-  const ConductionMatrix& matrix;
-  double factor;
-  std::span<const double> diagonal;
-  std::span<const double> inverse_diagonal;
-};
 
 struct SolveReport {
   int iterations = 0;
@@ -27,7 +19,7 @@ struct SolveReport {
 };
 
 /// The variant of Chronopoulos and Gear [CG89]: one reduction and one ghost exchange per iteration. Preconditioned by
-/// the diagonal. Dot products are exact sums, so the iterates do not depend on the ranks.
+/// the diagonal or by multigrid. Dot products are exact sums, so the iterates do not depend on the ranks.
 class ConjugateGradient {
  public:
   explicit ConjugateGradient(const Mesh& mesh);
@@ -35,24 +27,31 @@ class ConjugateGradient {
   /// Collective. `x` (all local nodes) brings the held values and a first guess, and takes the solution, ghosts
   /// included; `residual` takes b - A x of all rows, held ones included. Converged when the true residual is
   /// `tolerance` times the right-hand side (less what the held values bring), or as small as round-off in x allows.
+  /// `multigrid`: built for this system, or nullptr for the diagonal; the measure of convergence is the same.
   SolveReport solve(const HeatSystem& system, std::span<const double> b, std::span<double> x,
-                    std::span<double> residual, double tolerance, int max_iterations);
+                    std::span<double> residual, double tolerance, int max_iterations, Multigrid* multigrid);
 
   std::int64_t memory() const;
 
  private:
   /// r = b - A x with x's ghosts refreshed.
   void true_residual(const HeatSystem& system, std::span<const double> b, std::span<double> x, std::span<double> r);
-  /// u = r / diagonal with ghosts, w = A u, and the dot products r.u and w.u.
-  std::array<double, 2> precondition(const HeatSystem& system, std::span<const double> r);
+  /// Dot products of an iteration.
+  struct Dots {
+    double gamma, delta;  ///< r.u and u.A u
+    double size;          ///< r.r / diagonal: what convergence is measured by
+  };
+  /// u = M^-1 r with ghosts, w = A u.
+  Dots precondition(const HeatSystem& system, std::span<const double> r);
+  double size_of(const HeatSystem& system, std::span<const double> r) const;
   /// Norm of the right-hand side with the held values moved there.
   double scale_of(const HeatSystem& system, std::span<const double> b, std::span<const double> x);
-  int iterate(const HeatSystem& system, std::span<double> x, std::span<double> r, std::array<double, 2> dots,
-              double target, int budget);
+  int iterate(const HeatSystem& system, std::span<double> x, std::span<double> r, double target, int budget);
 
   const Mesh& mesh_;
-  std::vector<double> u_;          // all local nodes
-  std::vector<double> w_, p_, s_;  // rows
+  Multigrid* multigrid_ = nullptr;  // of the present solution
+  std::vector<double> u_;           // all local nodes
+  std::vector<double> w_, p_, s_;   // rows
 };
 
 }  // namespace tenon::thermal

@@ -113,7 +113,7 @@ void Thermal::solve_implicit(double dt) {
     for (std::size_t k = 0; k < diagonal_.size(); ++k)
       if (inverse_diagonal_[k] > 0) increment_[static_cast<std::size_t>(mesh_->owned_nodes[k])] *= dt / last_dt_;
   last_solve_ = solver_.solve({matrix_, factor, diagonal_, inverse_diagonal_}, right_side_, increment_, residual_,
-                              options_.tolerance, options_.max_iterations);
+                              options_.tolerance, options_.max_iterations, nullptr);
   solver_iterations_ += last_solve_.iterations;
   if (!last_solve_.converged)
     throw Error(

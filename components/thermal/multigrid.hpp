@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A multigrid preconditioner for heat conduction on any mesh, whose every bit is the same on any number of ranks.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "components/thermal/auxiliary_grid.hpp"
+#include "components/thermal/coarse_levels.hpp"
+#include "components/thermal/heat_system.hpp"
+
+namespace tenon::thermal {
+
+/// The auxiliary space method [Xu96]: the mesh smooths with Chebyshev polynomials, a rectilinear grid laid over it,
+/// coarsened by twos, takes what is smooth. Symmetric and positive definite. Sums from the nodes of several ranks to
+/// the grid are sums of integers (values in units of 2^-61 of a bound of the sum), so no order matters. The coarse
+/// levels (about an eighth of the nodes) stand whole on every rank.
+class Multigrid {
+ public:
+  /// Collective. Lays the grid over the reference configuration.
+  explicit Multigrid(const Mesh& mesh);
+  /// Collective. Prepares for this system; must be repeated when the matrix has changed or nodes are held that were
+  /// not. A system with another factor, up to twice or half, may then be preconditioned too.
+  void build(const HeatSystem& system);
+  bool built() const { return built_; }
+  /// Factor of the system it was built for.
+  double factor() const { return factor_; }
+  /// Collective. z (all local nodes; ghosts are not refreshed) = M^-1 r. Allocates nothing.
+  void apply(const HeatSystem& system, std::span<const double> r, std::span<double> z);
+  std::int64_t memory() const;
+
+ private:
+  void find_points(const HeatSystem& system);
+  SparseMatrix<std::int64_t> galerkin(const HeatSystem& system, int& exponent) const;
+  SparseMatrix<double> gathered(const SparseMatrix<std::int64_t>& local, int exponent) const;
+  double greatest_eigenvalue(const HeatSystem& system);
+  void smooth(const HeatSystem& system, std::span<const double> r, std::span<double> z, bool from_zero);
+  void correct(std::span<double> z);
+
+  const Mesh& mesh_;
+  RectilinearGrid grid_;
+  bool built_ = false;
+  double factor_ = 0;
+  std::int64_t most_nodes_ = 1;         // that one hat holds, over all ranks
+  SparseMatrix<double> interpolation_;  // from the points in use to all local nodes
+  SparseMatrix<double> restriction_;    // from the owned nodes (rows) to the points in use
+  std::vector<LocalIndex> points_;
+  CoarseLevels levels_;
+  Chebyshev smoother_;
+  std::vector<double> rest_, product_;  // rows
+  std::vector<double> change_;          // all local nodes
+  std::vector<double> coarse_, coarse_solution_;
+  std::vector<std::int64_t> exact_;
+};
+
+}  // namespace tenon::thermal
