@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "components/mechanics/bulk_viscosity.hpp"
+#include "components/mechanics/element_group.hpp"
 #include "components/mechanics/kinematics.hpp"
 #include "components/mechanics/stable_step.hpp"
 
@@ -14,20 +15,6 @@ namespace tenon {
 struct alignas(64) HexConnectivity {
   std::int32_t node[8][lanes];
 };
-
-/// Nodal arrays of a rank. Vectors lie three doubles apart with one double of padding after the last; forces four
-/// apart.
-struct NodeArrays {
-  const double* position;  ///< m
-  const double* velocity;  ///< m/s
-  double* force;           ///< internal, resisting: N
-};
-
-/// Codes in place of a stable step.
-inline constexpr double inverted_element = -1;   ///< volume not positive
-inline constexpr double exploding_element = -2;  ///< not a number, or strained beyond `greatest_strain` in one step
-/// Far above what the step before an inversion shows (about 1), so that an inversion is called one.
-inline constexpr double greatest_strain = 100;
 
 /// Modes of a nodal vector for four elements of a batch. Values are taken relative to node 0, which keeps digits far
 /// from the origin and makes a uniform motion exactly zero.
@@ -47,15 +34,6 @@ TENON_KERNEL HexModes<Pack> gather(const double* values, const HexConnectivity& 
   return hex_modes(x, y, z);
 }
 
-TENON_KERNEL SymmetricTensor<Pack> load_tensor(const Batch<6>& s, int lane) {
-  return {load(s[0] + lane), load(s[1] + lane), load(s[2] + lane),
-          load(s[3] + lane), load(s[4] + lane), load(s[5] + lane)};
-}
-TENON_KERNEL void store_tensor(const SymmetricTensor<Pack>& t, Batch<6>& s, int lane) {
-  store(s[0] + lane, t.xx), store(s[1] + lane, t.yy), store(s[2] + lane, t.zz);
-  store(s[3] + lane, t.xy), store(s[4] + lane, t.yz), store(s[5] + lane, t.zx);
-}
-
 /// Internal forces of an element, and what is found on the way.
 template <typename R>
 struct ElementForces {
@@ -65,39 +43,18 @@ struct ElementForces {
   R viscosity_energy, hourglass_energy;  ///< taken up in the step, J
 };
 
-/// What a block has in common.
+/// What a group has in common.
 template <typename H>
 struct HexParameters {
-  double lambda, shear;  ///< Lame constants, Pa
   BulkViscosity viscosity;
   H hourglass;
 };
 
-/// f_I = sigma b_I + viscous pressure + hourglass forces at the step's end; dt is the step's length for energies.
-/// Hourglass forces Q_alpha act through gamma_alpha = h_alpha - 1/V sum_j (h_alpha . x_j) b_j, so the b part joins the
-/// stress.
-template <typename R, typename H, typename HourglassState>
-TENON_KERNEL ElementForces<R> element_forces(const HexModes<R>& x, const HexModes<R>& v,
-                                             const SymmetricTensor<R>& stress, const ElementReference<R>& reference,
-                                             const HexParameters<H>& p, HourglassState& state, int lane, double dt) {
-  const MeanGradient<R> b = mean_gradient(x);
-  const Tensor<R> l = velocity_gradient(v, b);
-  const R volume = (1.0 / 192.0) * b.volume_192, inverse_volume = 192.0 / b.volume_192;
-  const SymmetricTensor<R> g = gradient_products(b);
-  const ElementScale<R> scale = element_scale(reference, volume, trace(g), p.lambda + 2 * p.shear);
-
-  const R rate = l.x.x + l.y.y + l.z.z;
-  const R intensity = p.viscosity.intensity(scale, rate);
-  const R viscous = p.viscosity.stress(scale, intensity, rate);
-  const HourglassResult<R> hourglass = p.hourglass.template step<R>(hourglass_rates(x, v, l), scale, state, lane, dt);
-
-  const R frequency = frequency_squared_bound(g, p.lambda, p.shear, reference.mass, volume);
-  const R step = damped_step(frequency, p.viscosity.damping(intensity), p.hourglass.damping(scale));
-  const SymmetricTensor<R> d{l.x.x, l.y.y, l.z.z, 0.5 * (l.x.y + l.y.x), 0.5 * (l.y.z + l.z.y), 0.5 * (l.z.x + l.x.z)};
-  const R bad = broadcast<R>(exploding_element), inverted = broadcast<R>(inverted_element);
-  const R checked = (dt * dt) * squared_norm(d) < greatest_strain * greatest_strain ? step : bad;
-
-  const HourglassVectors<R>& q = hourglass.force;
+/// sigma b_I and the hourglass forces Q_alpha, which act through gamma_alpha = h_alpha - 1/V sum_j (h_alpha . x_j) b_j:
+/// their b part joins the stress. Only the forces of the result are set.
+template <typename R>
+TENON_KERNEL ElementForces<R> nodal_forces(const HexModes<R>& x, const MeanGradient<R>& b, const R& inverse_volume,
+                                           const SymmetricTensor<R>& s, const HourglassVectors<R>& q) {
   const auto row = [&](const R& sx, const R& sy, const R& sz, const R& q1, const R& q2, const R& q3, const R& q4) {
     const Vector<R> held = (q1 * x.eta_zeta + q2 * x.zeta_xi) + (q3 * x.xi_eta + q4 * x.xi_eta_zeta);
     const Vector<R> t = Vector<R>{sx, sy, sz} - inverse_volume * held;
@@ -111,14 +68,66 @@ TENON_KERNEL ElementForces<R> element_forces(const HexModes<R>& x, const HexMode
                           q4};
   };
   ElementForces<R> result;
-  result.x = row(stress.xx + viscous, stress.xy, stress.zx, q.eta_zeta.x, q.zeta_xi.x, q.xi_eta.x, q.xi_eta_zeta.x);
-  result.y = row(stress.xy, stress.yy + viscous, stress.yz, q.eta_zeta.y, q.zeta_xi.y, q.xi_eta.y, q.xi_eta_zeta.y);
-  result.z = row(stress.zx, stress.yz, stress.zz + viscous, q.eta_zeta.z, q.zeta_xi.z, q.xi_eta.z, q.xi_eta_zeta.z);
+  result.x = row(s.xx, s.xy, s.zx, q.eta_zeta.x, q.zeta_xi.x, q.xi_eta.x, q.xi_eta_zeta.x);
+  result.y = row(s.xy, s.yy, s.yz, q.eta_zeta.y, q.zeta_xi.y, q.xi_eta.y, q.xi_eta_zeta.y);
+  result.z = row(s.zx, s.yz, s.zz, q.eta_zeta.z, q.zeta_xi.z, q.xi_eta.z, q.xi_eta_zeta.z);
+  return result;
+}
+
+/// f_I = sigma b_I + viscous pressure + hourglass forces at the step's end; dt is the step's length for energies.
+template <typename R, typename H, typename HourglassState>
+TENON_KERNEL ElementForces<R> element_forces(const HexModes<R>& x, const HexModes<R>& v,
+                                             const SymmetricTensor<R>& stress, const ElementReference<R>& reference,
+                                             const Moduli<R>& moduli, const HexParameters<H>& p, HourglassState& state,
+                                             int lane, double dt) {
+  const MeanGradient<R> b = mean_gradient(x);
+  const Tensor<R> l = velocity_gradient(v, b);
+  const R volume = (1.0 / 192.0) * b.volume_192, inverse_volume = 192.0 / b.volume_192;
+  const SymmetricTensor<R> g = gradient_products(b);
+  const ElementScale<R> scale = element_scale(reference, volume, trace(g), moduli);
+
+  const R rate = l.x.x + l.y.y + l.z.z;
+  const R intensity = p.viscosity.intensity(scale, rate);
+  const R viscous = p.viscosity.stress(scale, intensity, rate);
+  const HourglassResult<R> hourglass =
+      p.hourglass.template step<R>(x, hourglass_rates(x, v, l), scale, state, lane, dt);
+
+  const R frequency = frequency_squared_bound(g, moduli, reference.mass, volume);
+  const R step = damped_step(frequency, p.viscosity.damping(intensity), p.hourglass.damping(scale));
+  const SymmetricTensor<R> d{l.x.x, l.y.y, l.z.z, 0.5 * (l.x.y + l.y.x), 0.5 * (l.y.z + l.z.y), 0.5 * (l.z.x + l.x.z)};
+  const R bad = broadcast<R>(exploding_element), inverted = broadcast<R>(inverted_element);
+  const R checked = (dt * dt) * squared_norm(d) < greatest_strain * greatest_strain ? step : bad;
+
+  ElementForces<R> result = nodal_forces(x, b, inverse_volume,
+                                         SymmetricTensor<R>{stress.xx + viscous, stress.yy + viscous,
+                                                            stress.zz + viscous, stress.xy, stress.yz, stress.zx},
+                                         hourglass.force);
   result.volume = volume;
   result.step = volume > 0.0 ? checked : (volume <= 0.0 ? inverted : bad);
   result.viscosity_energy = dt * (viscous * rate * volume);
   result.hourglass_energy = hourglass.energy;
   return result;
+}
+
+/// (stiffness K + damping C) u: what the displacement u adds to the stress by the elastic moduli, its viscous pressure
+/// at the present rate, and its hourglass forces. Forces due to the present stress (geometric stiffness) are left out.
+template <typename R, typename H>
+TENON_KERNEL ElementForces<R> tangent_forces(const HexModes<R>& x, const HexModes<R>& v, const HexModes<R>& u,
+                                             const ElementReference<R>& reference, const Moduli<R>& moduli,
+                                             const HexParameters<H>& p, double stiffness, const R& damping) {
+  const MeanGradient<R> b = mean_gradient(x);
+  const Tensor<R> l = velocity_gradient(v, b), e = velocity_gradient(u, b);
+  const R volume = (1.0 / 192.0) * b.volume_192, inverse_volume = 192.0 / b.volume_192;
+  const ElementScale<R> scale = element_scale(reference, volume, trace(gradient_products(b)), moduli);
+  const R intensity = p.viscosity.intensity(scale, l.x.x + l.y.y + l.z.z);
+  const R volumetric = e.x.x + e.y.y + e.z.z;
+  const R mean = stiffness * (moduli.lambda * volumetric) + damping * p.viscosity.stress(scale, intensity, volumetric);
+  const R shear = stiffness * moduli.shear, twice = shear + shear;
+  const HourglassVectors<R> q = p.hourglass.template tangent<R>(x, hourglass_rates(x, u, e), scale, stiffness, damping);
+  return nodal_forces(x, b, inverse_volume,
+                      SymmetricTensor<R>{mean + twice * e.x.x, mean + twice * e.y.y, mean + twice * e.z.z,
+                                         shear * (e.x.y + e.y.x), shear * (e.y.z + e.z.y), shear * (e.z.x + e.x.z)},
+                      q);
 }
 
 /// Nodal forces of four elements, one row of x y z 0 per element and node.

@@ -15,7 +15,7 @@ Mechanics::Mechanics(std::string name, std::shared_ptr<const Mesh> mesh, Mechani
       options_(std::move(options)),
       conditions_(*mesh_, options_.motions, options_.walls),
       nodes_(mesh_->coordinates) {
-  make_blocks();
+  make_groups();
   sum_masses();
   set_temperatures();
 }
@@ -39,28 +39,43 @@ void Mechanics::advance(double dt) {
   choose_step();
 }
 
-// v* = v- - kick f/m on every node; ghosts are replaced by what their owners find. Conditions correct v* and the work.
-void Mechanics::kick(double dt) {
-  const ScopedTimer timer(*phases_.update);
-  const double kick = 0.5 * (previous_dt_ + dt);
-  const std::span<Vec3> velocity = nodes_.velocity();
-  for (std::size_t n = 0; n < nodes_.size(); ++n) {
-    const double* f = nodes_.force[n].v;
-    const double scale = kick * nodes_.inverse_mass[n];
+namespace {
+
+/// v* = v- - kick f/m on every node; books the work of the nodes against f.
+void kick_vectors(std::span<Vec3> velocity, std::span<const ForceRow> force, std::span<const double> inverse_mass,
+                  double kick, std::vector<double>& work) {
+  for (std::size_t n = 0; n < velocity.size(); ++n) {
+    const double* f = force[n].v;
+    const double scale = kick * inverse_mass[n];
     Vec3& v = velocity[n];
     const Vec3 kicked{v[0] - scale * f[0], v[1] - scale * f[1], v[2] - scale * f[2]};
     const double power = f[0] * (v[0] + kicked[0]) + f[1] * (v[1] + kicked[1]) + f[2] * (v[2] + kicked[2]);
-    nodes_.internal_work[n] += 0.5 * kick * power;
+    work[n] += 0.5 * kick * power;
     v = kicked;
   }
+}
+
+}  // namespace
+
+// Ghosts are replaced by what their owners find. Conditions correct v* and the work.
+void Mechanics::kick(double dt) {
+  const ScopedTimer timer(*phases_.update);
+  const double kick = 0.5 * (previous_dt_ + dt);
+  kick_vectors(nodes_.velocity(), nodes_.force, nodes_.inverse_mass, kick, nodes_.internal_work);
+  if (nodes_.has_rotations())
+    kick_vectors(nodes_.spin(), nodes_.moment, nodes_.inverse_inertia, kick, nodes_.internal_work);
   conditions_.apply(nodes_, time(), kick, dt);
 }
 
 void Mechanics::refresh_ghosts() {
   if (mesh_->comm.size() == 1) return;
   const ScopedTimer timer(*phases_.halo);
-  const std::span<Vec3> velocity = nodes_.velocity();
-  mesh_->node_halo.forward<Vec3>(velocity, velocity);
+  const auto item = [](std::span<Vec3> values) {
+    return ExchangeItem{reinterpret_cast<const std::byte*>(values.data()), reinterpret_cast<std::byte*>(values.data()),
+                        sizeof(Vec3)};
+  };
+  const std::array<ExchangeItem, 2> items{item(nodes_.velocity()), item(nodes_.spin())};
+  mesh_->node_halo.forward(std::span(items).first(nodes_.has_rotations() ? 2 : 1));
 }
 
 void Mechanics::drift(double dt) {
@@ -74,12 +89,25 @@ void Mechanics::drift(double dt) {
 void Mechanics::compute_forces(double dt) {
   const ScopedTimer timer(*phases_.forces);
   std::fill(nodes_.force.begin(), nodes_.force.end(), ForceRow{});
+  std::fill(nodes_.moment.begin(), nodes_.moment.end(), ForceRow{});
   local_least_ = {std::numeric_limits<double>::infinity(), no_index};
-  for (std::size_t b = 0; b < blocks_.size(); ++b) {
-    const BlockStep found = blocks_[b]->advance(nodes_.arrays(), dt);
-    if (found.step < local_least_.step) local_least_ = found, local_least_block_ = b;
+  for (int pass = 0; pass + 1 < passes_; ++pass)
+    for (const auto& group : groups_) {
+      if (pass + 1 >= group->passes()) continue;
+      group->prepare(pass, nodes_.arrays(), dt);
+      exchange_nodal_values(*group);
+    }
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    const GroupStep found = groups_[g]->advance(nodes_.arrays(), dt);
+    if (found.step < local_least_.step) local_least_ = found, local_least_group_ = g;
   }
   if (dt > 0) previous_dt_ = dt;
+}
+
+void Mechanics::exchange_nodal_values(ElementGroup& group) {
+  if (mesh_->comm.size() == 1) return;
+  const ScopedTimer timer(*phases_.halo);
+  mesh_->node_halo.forward<Vec3>(group.nodal_values(), group.nodal_values());
 }
 
 // Codes of bad elements are negative, so the same reduction finds them.

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Explicit finite elements: a deformable body of hexahedra, by central differences in time.
+// Explicit finite elements: a deformable body, by central differences in time.
 #pragma once
 
 #include <memory>
 #include <optional>
 #include <vector>
 
-#include "components/mechanics/hex8_block.hpp"
+#include "components/mechanics/element_group.hpp"
 #include "components/mechanics/mechanics_options.hpp"
 #include "components/mechanics/nodal_conditions.hpp"
 #include "components/mechanics/nodal_state.hpp"
@@ -57,7 +57,7 @@ class Mechanics final : public Component {
 
  private:
   // Set-up.
-  void make_blocks();
+  void make_groups();
   void sum_masses();
   void set_temperatures();
   void set_velocities();
@@ -67,35 +67,34 @@ class Mechanics final : public Component {
   void drift(double dt);
   void compute_forces(double dt);
   void choose_step();
+  void exchange_nodal_values(ElementGroup& group);
   // Messages.
   [[noreturn]] void fail(double code);
-  std::string describe(std::size_t block, LocalIndex element) const;
-  GlobalId global_id(std::size_t block, LocalIndex element) const {
-    return mesh_->blocks[block].ids[static_cast<std::size_t>(element)];
+  std::string describe(const ElementGroup& group, LocalIndex element) const;
+  static GlobalId global_id(const ElementGroup& group, LocalIndex element) {
+    return group.elements().ids[static_cast<std::size_t>(element)];
   }
   // Fields.
   template <typename Value>
   ExportPort element_port(std::string field, int components, std::string unit, Value value);
   void take_temperature(std::span<const double> values);
   void give_heat(std::span<double> values);
-  double heat(std::size_t block, LocalIndex element) const;
-  template <typename Visit>
-  void for_owned(Visit visit) const;
+  static double heat(const ElementGroup& group, LocalIndex element);
 
   std::shared_ptr<const Mesh> mesh_;
   MechanicsOptions options_;
   NodalConditions conditions_;
   NodalState nodes_;
-  std::vector<std::unique_ptr<Hex8Block>> blocks_;  // as those of the mesh
-  std::vector<ElementValues> heat_given_;           // J, per block: taken from here by another component
+  std::vector<std::unique_ptr<ElementGroup>> groups_;  // as the blocks of the mesh
 
   double previous_dt_ = 0;  // of the last half step
   double stable_step_ = 0;  // what time_step() says
   double estimate_ = 0;     // of the elements, without scale
   double last_good_ = 0;    // the estimate before, for messages
   double first_estimate_ = 0;
-  BlockStep local_least_{};  // of this rank
-  std::size_t local_least_block_ = 0;
+  GroupStep local_least_{};  // of this rank
+  std::size_t local_least_group_ = 0;
+  int passes_ = 1;  // of the group with the most
   bool started_ = false;
   bool loaded_ = false;
   std::int64_t work_done_ = 0, owned_elements_ = 0, steps_ = 0;

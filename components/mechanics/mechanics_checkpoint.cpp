@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // State in a checkpoint. Masses and forces are computed again, to the same bits.
-#include <functional>
-
 #include "components/mechanics/mechanics.hpp"
 
 namespace tenon {
@@ -21,38 +19,6 @@ std::vector<GlobalId> chosen_ids(const std::vector<GlobalId>& ids, const std::ve
 }
 
 constexpr int every_rank = -1;
-
-/// Calls visit(name, components, access) for every array over the elements of a block; access(element, i) is a value
-/// that can be read and assigned.
-template <typename Visit>
-void element_arrays(Hex8Block& block, ElementValues& heat_given, Visit visit) {
-  struct Accessor {
-    std::function<double(LocalIndex, int)> get;
-    std::function<void(LocalIndex, int, double)> set;
-  };
-  visit("stress", 6,
-        Accessor{[&](LocalIndex e, int i) { return block.stress(e, i); },
-                 [&](LocalIndex e, int i, double x) { block.stress(e, i) = x; }});
-  if (block.history_size() > 0)
-    visit("history", block.history_size(),
-          Accessor{[&](LocalIndex e, int i) { return block.history(e, i); },
-                   [&](LocalIndex e, int i, double x) { block.set_history(e, i, x); }});
-  if (block.hourglass_state_size() > 0)
-    visit("hourglass_forces", block.hourglass_state_size(),
-          Accessor{[&](LocalIndex e, int i) { return block.hourglass_state(e, i); },
-                   [&](LocalIndex e, int i, double x) { block.set_hourglass_state(e, i, x); }});
-  const auto values = [&](const char* name, ElementValues& v) {
-    visit(name, 1,
-          Accessor{[&v](LocalIndex e, int) { return value_of(v, e); },
-                   [&v](LocalIndex e, int, double x) { value_of(v, e) = x; }});
-  };
-  values("temperature", block.temperature);
-  values("temperature_used", block.temperature_used);
-  values("plastic_work", block.plastic_work);
-  values("hourglass_energy", block.hourglass_energy);
-  values("viscosity_energy", block.viscosity_energy);
-  if (!heat_given.empty()) values("heat_given", heat_given);
-}
 
 }  // namespace
 
@@ -74,23 +40,24 @@ void Mechanics::save(CheckpointWriter& file) {
   };
   node_array("position", 3, [&](std::size_t n, std::size_t c) { return nodes_.position()[n][c]; });
   node_array("velocity", 3, [&](std::size_t n, std::size_t c) { return nodes_.velocity()[n][c]; });
+  if (nodes_.has_rotations()) node_array("spin", 3, [&](std::size_t n, std::size_t c) { return nodes_.spin()[n][c]; });
   node_array("internal_work", 1, [&](std::size_t n, std::size_t) { return nodes_.internal_work[n]; });
   if (conditions_.has_motions())
     node_array("boundary_work", 1, [&](std::size_t n, std::size_t) { return conditions_.boundary_work()[n]; });
   if (conditions_.has_walls())
     node_array("wall_work", 1, [&](std::size_t n, std::size_t) { return conditions_.wall_work()[n]; });
-  for (std::size_t b = 0; b < blocks_.size(); ++b) {
-    const ElementBlock& block = mesh_->blocks[b];
+  for (const auto& group : groups_) {
+    const ElementBlock& block = group->elements();
     chosen.clear();
     const GlobalOrder elements(mesh_->comm,
                                chosen_ids(block.ids, block.owners, mesh_->comm.rank(), block.first_id, chosen),
                                block.global_count);
-    element_arrays(*blocks_[b], heat_given_[b], [&](const char* field, int components, const auto& array) {
+    for (const StateArray& array : group->state()) {
       values.clear();
       for (const LocalIndex e : chosen)
-        for (int c = 0; c < components; ++c) values.push_back(array.get(e, c));
-      file.array(key(block.name + "." + field), elements, values, components);
-    });
+        for (int row = 0; row < array.rows; ++row) values.push_back(array.at(e, row));
+      file.array(key(block.name + "." + array.name), elements, values, array.rows);
+    }
   }
 }
 
@@ -112,33 +79,35 @@ void Mechanics::load(const CheckpointReader& file) {
   };
   node_array("position", 3, [&](std::size_t n, std::size_t c) -> double& { return nodes_.position()[n][c]; });
   node_array("velocity", 3, [&](std::size_t n, std::size_t c) -> double& { return nodes_.velocity()[n][c]; });
+  if (nodes_.has_rotations())
+    node_array("spin", 3, [&](std::size_t n, std::size_t c) -> double& { return nodes_.spin()[n][c]; });
   node_array("internal_work", 1, [&](std::size_t n, std::size_t) -> double& { return nodes_.internal_work[n]; });
   if (conditions_.has_motions())
     node_array("boundary_work", 1,
                [&](std::size_t n, std::size_t) -> double& { return conditions_.boundary_work()[n]; });
   if (conditions_.has_walls())
     node_array("wall_work", 1, [&](std::size_t n, std::size_t) -> double& { return conditions_.wall_work()[n]; });
-  for (std::size_t b = 0; b < blocks_.size(); ++b) {
-    const ElementBlock& block = mesh_->blocks[b];
+  for (const auto& group : groups_) {
+    const ElementBlock& block = group->elements();
     chosen.clear();
     const GlobalOrder elements(mesh_->comm, chosen_ids(block.ids, block.owners, every_rank, block.first_id, chosen),
                                block.global_count);
-    element_arrays(*blocks_[b], heat_given_[b], [&](const char* field, int components, const auto& array) {
-      values.resize(block.ids.size() * static_cast<std::size_t>(components));
-      file.array(key(block.name + "." + field), elements, values, components);
+    for (const StateArray& array : group->state()) {
+      values.resize(block.ids.size() * static_cast<std::size_t>(array.rows));
+      file.array(key(block.name + "." + array.name), elements, values, array.rows);
       auto from = values.begin();
       for (LocalIndex e = 0; e < block.size(); ++e)
-        for (int c = 0; c < components; ++c) array.set(e, c, *from++);
-    });
-    blocks_[b]->fill_padding();
+        for (int row = 0; row < array.rows; ++row) array.at(e, row) = *from++;
+    }
+    group->fill_padding();
   }
   loaded_ = started_ = true;
 }
 
 std::int64_t Mechanics::memory() const {
   std::int64_t bytes = conditions_.memory() + static_cast<std::int64_t>(nodes_.size() * (6 + 3 + 4) * sizeof(double));
-  for (std::size_t b = 0; b < blocks_.size(); ++b)
-    bytes += blocks_[b]->memory() + static_cast<std::int64_t>(heat_given_[b].size() * sizeof(Batch<1>));
+  if (nodes_.has_rotations()) bytes += static_cast<std::int64_t>(nodes_.size() * (3 + 2 + 4) * sizeof(double));
+  for (const auto& group : groups_) bytes += group->memory();
   return bytes;
 }
 

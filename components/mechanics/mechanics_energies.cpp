@@ -4,38 +4,50 @@
 
 namespace tenon {
 
+namespace {
+
+/// Calls visit(group, element) for the elements that this rank owns.
 template <typename Visit>
-void Mechanics::for_owned(Visit visit) const {
-  for (std::size_t b = 0; b < blocks_.size(); ++b)
-    for (LocalIndex e = 0; e < blocks_[b]->size(); ++e)
-      if (mesh_->blocks[b].owners[static_cast<std::size_t>(e)] == mesh_->comm.rank()) visit(b, e);
+void for_owned(const Mesh& mesh, const std::vector<std::unique_ptr<ElementGroup>>& groups, Visit visit) {
+  for (const auto& group : groups)
+    for (LocalIndex e = 0; e < group->size(); ++e)
+      if (group->elements().owners[static_cast<std::size_t>(e)] == mesh.comm.rank()) visit(*group, e);
 }
 
+}  // namespace
+
 // The work of the nodes against all element forces is internal energy, hourglass energy and viscosity together; the
-// elements know the last two.
+// elements know the last two, and what was in those that have failed.
 void Mechanics::energies(std::vector<EnergyTerm>& terms) {
   using Role = EnergyTerm::Role;
   EnergyTerm kinetic{"kinetic_energy", Role::stored, {}}, internal{"internal_energy", Role::stored, {}};
   EnergyTerm hourglass{"hourglass_energy", Role::stored, {}}, viscosity{"viscosity_energy", Role::stored, {}};
+  EnergyTerm eroded{"eroded_energy", Role::stored, {}};
   EnergyTerm boundary{"boundary_work", Role::supplied, {}}, wall{"wall_work", Role::supplied, {}};
   EnergyTerm plastic{"plastic_work", Role::memo, {}}, generated{"heat_generated", Role::memo, {}};
   for (const LocalIndex n : mesh_->owned_nodes) {
     const auto i = static_cast<std::size_t>(n);
     const Vec3& v = nodes_.velocity()[i];
     kinetic.local.add(0.5 * nodes_.mass[i] * dot(v, v));
+    if (nodes_.has_rotations()) kinetic.local.add(0.5 * nodes_.inertia[i] * dot(nodes_.spin()[i], nodes_.spin()[i]));
     internal.local.add(nodes_.internal_work[i]);
     if (conditions_.has_motions()) boundary.local.add(conditions_.boundary_work()[i]);
     if (conditions_.has_walls()) wall.local.add(conditions_.wall_work()[i]);
   }
-  bool has_plasticity = false;
-  for (const auto& block : blocks_) has_plasticity = has_plasticity || block->plastic();
-  for_owned([&](std::size_t b, LocalIndex e) {
-    const double h = value_of(blocks_[b]->hourglass_energy, e), v = value_of(blocks_[b]->viscosity_energy, e);
+  bool has_plasticity = false, can_fail = false;
+  for (const auto& group : groups_)
+    has_plasticity = has_plasticity || group->model().plastic(), can_fail = can_fail || group->model().damage() >= 0;
+  for_owned(*mesh_, groups_, [&](const ElementGroup& group, LocalIndex e) {
+    const double h = value_of(group.hourglass_energy, e), v = value_of(group.viscosity_energy, e);
     hourglass.local.add(h), viscosity.local.add(v);
     internal.local.add(-h), internal.local.add(-v);
-    if (has_plasticity) plastic.local.add(value_of(blocks_[b]->plastic_work, e)), generated.local.add(heat(b, e));
+    if (!group.alive(e)) {
+      eroded.local.add(value_of(group.internal_energy, e)), internal.local.add(-value_of(group.internal_energy, e));
+    }
+    if (has_plasticity) plastic.local.add(value_of(group.plastic_work, e)), generated.local.add(heat(group, e));
   });
   for (EnergyTerm* term : {&kinetic, &internal, &hourglass, &viscosity}) terms.push_back(std::move(*term));
+  if (can_fail) terms.push_back(std::move(eroded));
   if (conditions_.has_motions()) terms.push_back(std::move(boundary));
   if (conditions_.has_walls()) terms.push_back(std::move(wall));
   if (!has_plasticity) return;

@@ -4,14 +4,13 @@
 #include <cmath>
 #include <limits>
 
-#include "components/mechanics/hex8_volume.hpp"
 #include "components/mechanics/mechanics.hpp"
 
 namespace tenon {
 
 namespace {
 
-double von_mises_stress(Hex8Block& block, LocalIndex e) {
+double von_mises_stress(const ElementGroup& block, LocalIndex e) {
   const double mean = (block.stress(e, 0) + block.stress(e, 1) + block.stress(e, 2)) / 3;
   const double x = block.stress(e, 0) - mean, y = block.stress(e, 1) - mean, z = block.stress(e, 2) - mean;
   const double xy = block.stress(e, 3), yz = block.stress(e, 4), zx = block.stress(e, 5);
@@ -29,9 +28,9 @@ ExportPort Mechanics::element_port(std::string field, int components, std::strin
   return {{std::move(field), Location::element, FieldKind::point_value, components, std::move(unit)},
           [this, components, value](std::span<double> out) {
             auto to = out.begin();
-            for (std::size_t b = 0; b < blocks_.size(); ++b)
-              for (LocalIndex e = 0; e < blocks_[b]->size(); ++e)
-                for (int c = 0; c < components; ++c) *to++ = value(b, e, c);
+            for (const auto& group : groups_)
+              for (LocalIndex e = 0; e < group->size(); ++e)
+                for (int c = 0; c < components; ++c) *to++ = value(*group, e, c);
           }};
 }
 
@@ -46,22 +45,28 @@ std::vector<ExportPort> Mechanics::exports() {
                      for (std::size_t n = 0; n < nodes_.size(); ++n)
                        for (std::size_t c = 0; c < 3; ++c) out[3 * n + c] = nodes_.velocity()[n][c];
                    }});
+  using Group = ElementGroup;
+  ports.push_back(element_port("stress", 6, "Pa",
+                               [](const Group& g, LocalIndex e, int component) { return g.stress(e, component); }));
   ports.push_back(
-      element_port("stress", 6, "Pa", [this](std::size_t b, LocalIndex e, int c) { return blocks_[b]->stress(e, c); }));
-  ports.push_back(element_port("von_mises", 1, "Pa",
-                               [this](std::size_t b, LocalIndex e, int) { return von_mises_stress(*blocks_[b], e); }));
-  ports.push_back(element_port("pressure", 1, "Pa", [this](std::size_t b, LocalIndex e, int) {
-    return -(blocks_[b]->stress(e, 0) + blocks_[b]->stress(e, 1) + blocks_[b]->stress(e, 2)) / 3;
+      element_port("von_mises", 1, "Pa", [](const Group& g, LocalIndex e, int) { return von_mises_stress(g, e); }));
+  ports.push_back(element_port("pressure", 1, "Pa", [](const Group& g, LocalIndex e, int) {
+    return -(g.stress(e, 0) + g.stress(e, 1) + g.stress(e, 2)) / 3;
   }));
-  ports.push_back(element_port("eqps", 1, "1", [this](std::size_t b, LocalIndex e, int) {
-    return blocks_[b]->plastic() ? blocks_[b]->history(e, 0) : 0.0;
+  ports.push_back(element_port(
+      "eqps", 1, "1", [](const Group& g, LocalIndex e, int) { return g.model().plastic() ? g.history(e, 0) : 0.0; }));
+  ports.push_back(element_port("density", 1, "kg/m^3", [this](const Group& g, LocalIndex e, int) {
+    return value_of(g.mass, e) / g.volume(e, nodes_.position());
   }));
-  ports.push_back(element_port("density", 1, "kg/m^3", [this](std::size_t b, LocalIndex e, int) {
-    return value_of(blocks_[b]->mass, e) / hex8_volume(mesh_->blocks[b].nodes(e), nodes_.position());
-  }));
-  ports.push_back(element_port("temperature", 1, "K", [this](std::size_t b, LocalIndex e, int) {
-    return value_of(blocks_[b]->temperature, e);
-  }));
+  ports.push_back(element_port("temperature", 1, "K",
+                               [](const Group& g, LocalIndex e, int) { return value_of(g.temperature, e); }));
+  if (std::ranges::any_of(groups_, [](const auto& group) { return group->model().damage() >= 0; })) {
+    ports.push_back(element_port("damage", 1, "1", [](const Group& g, LocalIndex e, int) {
+      return g.model().damage() >= 0 ? g.history(e, g.model().damage()) : 0.0;
+    }));
+    ports.push_back(element_port("element_status", 1, "1",
+                                 [](const Group& g, LocalIndex e, int) { return g.alive(e) ? 1.0 : 0.0; }));
+  }
   if (options_.heat == HeatMode::exported)
     ports.push_back({{"plastic_heat", Location::element, FieldKind::total, 1, "J"},
                      [this](std::span<double> out) { give_heat(out); }});
@@ -76,25 +81,25 @@ std::vector<ImportPort> Mechanics::imports() {
 // What comes before the first step is the temperature at which the body is free of stress, unless the user gave one.
 void Mechanics::take_temperature(std::span<const double> values) {
   auto from = values.begin();
-  for (const auto& block : blocks_) {
-    for (LocalIndex e = 0; e < block->size(); ++e) value_of(block->temperature, e) = *from++;
-    block->fill_padding();
-    if (!started_ && !options_.initial_temperature) block->temperature_used = block->temperature;
+  for (const auto& group : groups_) {
+    for (LocalIndex e = 0; e < group->size(); ++e) value_of(group->temperature, e) = *from++;
+    group->fill_padding();
+    if (!started_ && !options_.initial_temperature) group->temperature_used = group->temperature;
   }
 }
 
-double Mechanics::heat(std::size_t block, LocalIndex element) const {
-  const std::optional<ThermalProperties>& thermal = blocks_[block]->material().thermal;
-  return thermal ? thermal->taylor_quinney * value_of(blocks_[block]->plastic_work, element) : 0.0;
+double Mechanics::heat(const ElementGroup& group, LocalIndex element) {
+  const std::optional<ThermalProperties>& thermal = group.material().thermal;
+  return thermal ? thermal->taylor_quinney * value_of(group.plastic_work, element) : 0.0;
 }
 
 void Mechanics::give_heat(std::span<double> values) {
   auto to = values.begin();
-  for (std::size_t b = 0; b < blocks_.size(); ++b)
-    for (LocalIndex e = 0; e < blocks_[b]->size(); ++e) {
-      const double now = heat(b, e);
-      *to++ = now - value_of(heat_given_[b], e);
-      value_of(heat_given_[b], e) = now;
+  for (const auto& group : groups_)
+    for (LocalIndex e = 0; e < group->size(); ++e) {
+      const double now = heat(*group, e);
+      *to++ = now - value_of(group->heat_given, e);
+      value_of(group->heat_given, e) = now;
     }
 }
 
@@ -103,13 +108,16 @@ std::vector<HistoryValue> Mechanics::history_values() {
   constexpr double none = -std::numeric_limits<double>::infinity();
   double eqps = none, von_mises = none, temperature = none, moved = none;
   bool plastic = false;
-  for (std::size_t b = 0; b < blocks_.size(); ++b) {
-    Hex8Block& block = *blocks_[b];
-    plastic = plastic || block.plastic();
-    for (LocalIndex e = 0; e < block.size(); ++e) {
-      if (block.plastic()) eqps = std::max(eqps, block.history(e, 0));
-      von_mises = std::max(von_mises, von_mises_stress(block, e));
-      temperature = std::max(temperature, value_of(block.temperature, e));
+  double dead = 0;
+  bool can_fail = false;
+  for (const auto& group : groups_) {
+    plastic = plastic || group->model().plastic(), can_fail = can_fail || group->model().damage() >= 0;
+    for (LocalIndex e = 0; e < group->size(); ++e) {
+      if (group->model().plastic()) eqps = std::max(eqps, group->history(e, 0));
+      von_mises = std::max(von_mises, von_mises_stress(*group, e));
+      temperature = std::max(temperature, value_of(group->temperature, e));
+      const bool mine = group->elements().owners[static_cast<std::size_t>(e)] == mesh_->comm.rank();
+      if (mine && !group->alive(e)) dead += 1;
     }
   }
   for (const LocalIndex n : mesh_->owned_nodes) {
@@ -121,6 +129,7 @@ std::vector<HistoryValue> Mechanics::history_values() {
   values.push_back({"max_von_mises", Reduce::max, von_mises});
   values.push_back({"max_temperature", Reduce::max, temperature});
   values.push_back({"max_displacement", Reduce::max, moved});
+  if (can_fail) values.push_back({"failed_elements", Reduce::sum, dead});
   return values;
 }
 

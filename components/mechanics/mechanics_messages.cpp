@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "components/mechanics/hex8_volume.hpp"
 #include "components/mechanics/mechanics.hpp"
 
 namespace tenon {
@@ -17,13 +16,13 @@ constexpr GlobalId none = std::numeric_limits<GlobalId>::max();
 Vec3 centre(std::span<const LocalIndex> nodes, std::span<const Vec3> x) {
   Vec3 sum{};
   for (const LocalIndex n : nodes) sum = sum + x[static_cast<std::size_t>(n)];
-  return 0.125 * sum;
+  return (1 / static_cast<double>(nodes.size())) * sum;
 }
 
 }  // namespace
 
-std::string Mechanics::describe(std::size_t block, LocalIndex element) const {
-  const ElementBlock& b = mesh_->blocks[block];
+std::string Mechanics::describe(const ElementGroup& group, LocalIndex element) const {
+  const ElementBlock& b = group.elements();
   const Vec3 now = centre(b.nodes(element), nodes_.position()), start = centre(b.nodes(element), mesh_->coordinates);
   const std::string place = std::isfinite(now[0] + now[1] + now[2])
                                 ? fmt::format("at ({:.6g}, {:.6g}, {:.6g})", now[0], now[1], now[2])
@@ -35,12 +34,12 @@ std::string Mechanics::describe(std::size_t block, LocalIndex element) const {
 StepLimiter Mechanics::limiter() {
   const Communicator& comm = mesh_->comm;
   const bool mine = local_least_.element != no_index && local_least_.step == estimate_;
-  const GlobalId least = comm.min(mine ? global_id(local_least_block_, local_least_.element) : none);
-  const bool here = mine && global_id(local_least_block_, local_least_.element) == least;
+  const GlobalId least = comm.min(mine ? global_id(*groups_[local_least_group_], local_least_.element) : none);
+  const bool here = mine && global_id(*groups_[local_least_group_], local_least_.element) == least;
   const int root = static_cast<int>(comm.min(static_cast<std::int64_t>(here ? comm.rank() : comm.size())));
   std::string reason = "no element";
   if (root < comm.size()) {
-    if (comm.rank() == root) reason = describe(local_least_block_, local_least_.element);
+    if (comm.rank() == root) reason = describe(*groups_[local_least_group_], local_least_.element);
     comm.broadcast(reason, root);
   }
   if (options_.time_step.fixed)
@@ -50,40 +49,29 @@ StepLimiter Mechanics::limiter() {
   return {stable_step_, reason};
 }
 
-// Rare: looks through the elements for the first that is bad in the way that `code` says (a collapsed step is the
-// smallest element, found already).
+// The reduction of the stable step has found the code; the element with it that has the least id is named.
 void Mechanics::fail(double code) {
   const Communicator& comm = mesh_->comm;
   GlobalId first = none;
   std::string message;
-  const auto consider = [&](std::size_t b, LocalIndex e, const std::string& what) {
-    if (global_id(b, e) >= first) return;
-    first = global_id(b, e);
-    message = fmt::format("{}: {} {} at t = {:.6g} s (step {})", name(), describe(b, e), what, time(), steps_);
-  };
   ExitCode exit = code == inverted_element ? ExitCode::geometry : ExitCode::unstable;
-  for (std::size_t b = 0; b < blocks_.size() && code < 0; ++b) {
-    for (LocalIndex e = 0; e < blocks_[b]->size(); ++e) {
-      const std::span<const LocalIndex> nodes = mesh_->blocks[b].nodes(e);
-      const HexModes<double> x = hex8_modes(nodes, nodes_.position()), v = hex8_modes(nodes, nodes_.velocity());
-      const MeanGradient<double> gradient = mean_gradient(x);
-      const StepDeformation<double> step = step_deformation(velocity_gradient(v, gradient), previous_dt_);
-      const double volume = gradient.volume_192 / 192, strain = squared_norm(step.strain_increment);
-      if (code == inverted_element && volume <= 0)
-        consider(b, e,
-                 fmt::format("is inside out (volume {:.3g} m^3): the deformation is too large for the mesh", volume));
-      else if (code == exploding_element && !std::isfinite(volume))
-        consider(b, e, "has lost its numbers (not a number): the run is unstable, use a smaller time step");
-      else if (code == exploding_element && volume > 0 && !(strain < greatest_strain * greatest_strain))
-        consider(b, e,
-                 fmt::format("deforms by {:.3g} in one step: the run is unstable, use a smaller time step",
-                             std::sqrt(strain)));
-    }
+  if (local_least_.step == code) {
+    const ElementGroup& group = *groups_[local_least_group_];
+    const LocalIndex e = local_least_.element;
+    const double volume = group.volume(e, nodes_.position());
+    first = global_id(group, e);
+    std::string what =
+        fmt::format("allows only a time step of {:.3g} s, {:.1e} of the first one: the step has collapsed", code,
+                    code / first_estimate_);
+    if (code == inverted_element)
+      what = fmt::format("is inside out (volume {:.3g} m^3): the deformation is too large for the mesh", volume);
+    else if (code == exploding_element && std::isfinite(volume))
+      what = fmt::format("deforms by more than {:g} in one step: the run is unstable, use a smaller time step",
+                         greatest_strain);
+    else if (code == exploding_element)
+      what = "has lost its numbers (not a number): the run is unstable, use a smaller time step";
+    message = fmt::format("{}: {} {} at t = {:.6g} s (step {})", name(), describe(group, e), what, time(), steps_);
   }
-  if (code >= 0 && local_least_.step == code)
-    consider(local_least_block_, local_least_.element,
-             fmt::format("allows only a time step of {:.3g} s, {:.1e} of the first one: the step has collapsed", code,
-                         code / first_estimate_));
   if (previous_dt_ > 1.05 * last_good_ && last_good_ > 0) {
     exit = ExitCode::unstable;
     message += fmt::format("; the last step was {:.3g} times the stable one: check time_step.fixed and time_step.scale",

@@ -16,8 +16,8 @@
 namespace tenon {
 
 struct HourglassOptions {
-  enum class Form { viscous, stiffness, none } form = Form::viscous;
-  double coefficient = 0.1;  ///< viscous 0.1, stiffness 0.05 are usual
+  enum class Form { viscous, stiffness, physical, none } form = Form::viscous;
+  double coefficient = 0.1;  ///< viscous 0.1, stiffness 0.05 are usual; physical has none
 };
 
 struct TimeStepOptions {

@@ -4,58 +4,58 @@
 
 #include <algorithm>
 
+#include "components/mechanics/element_kinds.hpp"
 #include "components/mechanics/mechanics.hpp"
 
 namespace tenon {
 
-void Mechanics::make_blocks() {
+void Mechanics::make_groups() {
   std::optional<Error> error;
-  for (const ElementBlock& block : mesh_->blocks) {
+  for (std::size_t b = 0; b < mesh_->blocks.size(); ++b) {
+    const ElementBlock& block = mesh_->blocks[b];
     const auto found = std::find_if(options_.blocks.begin(), options_.blocks.end(),
-                                    [&](const MechanicsOptions::Block& b) { return b.name == block.name; });
+                                    [&](const MechanicsOptions::Block& o) { return o.name == block.name; });
     if (found == options_.blocks.end())
       throw Error(ExitCode::usage, fmt::format("{}: block '{}' of the mesh has no material", name(), block.name));
-    if (block.kind != ElementKind::hex8)
-      throw Error(ExitCode::usage, fmt::format("{}: block '{}' is of {}; mechanics computes hex8", name(), block.name,
-                                               topology(block.kind).name));
-    blocks_.push_back(
-        make_hex8_block(block, mesh_->coordinates, found->material, options_.hourglass, options_.viscosity));
-    for (LocalIndex e = 0; e < block.size() && !error; ++e)
-      if (!(value_of(blocks_.back()->mass, e) > 0))
-        error = Error(ExitCode::geometry, fmt::format("{}: {} has no positive volume; check the mesh", name(),
-                                                      describe(blocks_.size() - 1, e)));
+    groups_.push_back(make_element_group(b, *mesh_, *found, options_));
+    ElementGroup& group = *groups_.back();
+    passes_ = std::max(passes_, group.passes());
+    for (LocalIndex e = 0; e < group.size() && !error; ++e)
+      if (!(value_of(group.mass, e) > 0))
+        error = Error(ExitCode::geometry,
+                      fmt::format("{}: {} has no positive volume; check the mesh", name(), describe(group, e)));
     for (const int owner : block.owners) owned_elements_ += owner == mesh_->comm.rank() ? 1 : 0;
-    heat_given_.emplace_back(options_.heat == HeatMode::exported ? blocks_.back()->mass.size() : 0);
     const std::optional<ThermalProperties>& thermal = found->material.thermal;
+    if (options_.heat == HeatMode::exported) group.heat_given.resize(group.mass.size());
     if (options_.heat == HeatMode::adiabatic && thermal)
-      blocks_.back()->heating = thermal->taylor_quinney / thermal->specific_heat;
-    if (options_.heat != HeatMode::none && blocks_.back()->plastic() && !thermal)
+      group.heating = thermal->taylor_quinney / thermal->specific_heat;
+    if (options_.heat != HeatMode::none && group.model().plastic() && !thermal)
       throw Error(ExitCode::usage,
                   fmt::format("{}: heat is {}, but material '{}' of block '{}' has no thermal properties", name(),
                               options_.heat == HeatMode::adiabatic ? "adiabatic" : "exported", found->material.name,
                               block.name));
+    if (group.has_rotations() && !nodes_.has_rotations()) nodes_.add_rotations();
+    if (group.model().needs_deformation_gradient()) nodes_.keep_reference();
   }
   mesh_->comm.throw_if_any(error);
 }
 
-// An eighth of the mass of each element around a node, in ascending global order of the elements: [HUG87, 7.3.2].
 void Mechanics::sum_masses() {
-  for (std::size_t b = 0; b < blocks_.size(); ++b) {
-    const ElementBlock& block = mesh_->blocks[b];
-    for (LocalIndex e = 0; e < block.size(); ++e)
-      for (const LocalIndex n : block.nodes(e))
-        nodes_.mass[static_cast<std::size_t>(n)] += 0.125 * value_of(blocks_[b]->mass, e);
-  }
-  for (std::size_t n = 0; n < nodes_.size(); ++n) nodes_.inverse_mass[n] = nodes_.mass[n] > 0 ? 1 / nodes_.mass[n] : 0;
+  for (const auto& group : groups_) group->add_masses({nodes_.mass, nodes_.inertia});
+  const auto invert = [](const std::vector<double>& from, std::vector<double>& to) {
+    for (std::size_t n = 0; n < from.size(); ++n) to[n] = from[n] > 0 ? 1 / from[n] : 0;
+  };
+  invert(nodes_.mass, nodes_.inverse_mass);
+  invert(nodes_.inertia, nodes_.inverse_inertia);
 }
 
 void Mechanics::set_temperatures() {
-  for (std::size_t b = 0; b < blocks_.size(); ++b) {
-    const std::optional<ThermalProperties>& thermal = blocks_[b]->material().thermal;
+  for (const auto& group : groups_) {
+    const std::optional<ThermalProperties>& thermal = group->material().thermal;
     const double start = options_.initial_temperature.value_or(thermal ? thermal->reference_temperature
                                                                        : ThermalProperties{}.reference_temperature);
-    for (Batch<1>& t : blocks_[b]->temperature) std::fill(t[0], t[0] + lanes, start);
-    blocks_[b]->temperature_used = blocks_[b]->temperature;
+    for (Batch<1>& t : group->temperature) std::fill(t[0], t[0] + lanes, start);
+    group->temperature_used = group->temperature;
   }
 }
 

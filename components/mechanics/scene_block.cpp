@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "components/mechanics/element_kinds.hpp"
+
 namespace tenon {
 namespace {
 
@@ -108,10 +110,8 @@ void read_blocks(const Value& value, const Reader& reader, const Materials& mate
   std::vector<std::string> names;
   for (const MeshSummary::Entry& entry : reader.mesh.blocks) {
     names.push_back(entry.name);
-    if (entry.kind != ElementKind::hex8)
-      reader.diagnostics.error(value.where("mesh"),
-                               fmt::format("mesh: block '{}' consists of {}; mechanics computes hex8", entry.name,
-                                           topology(entry.kind).name));
+    if (const std::string refused = refusal(entry.kind); !refused.empty())
+      reader.diagnostics.error(value.where("mesh"), fmt::format("mesh: block '{}' {}", entry.name, refused));
     const auto found = own.find(entry.name);
     if (found == own.end() && !value.has("material")) {
       reader.diagnostics.error(value.where(), fmt::format("block '{}' of the mesh has no material; give 'material' for "
@@ -146,7 +146,10 @@ void read_control(const Value& value, MechanicsOptions& options) {
     using Form = HourglassOptions::Form;
     const Value h = value.child("hourglass");
     const std::string& form = h.text("form");
-    options.hourglass.form = form == "stiffness" ? Form::stiffness : form == "none" ? Form::none : Form::viscous;
+    options.hourglass.form = form == "stiffness"  ? Form::stiffness
+                             : form == "physical" ? Form::physical
+                             : form == "none"     ? Form::none
+                                                  : Form::viscous;
     const double usual = options.hourglass.form == Form::stiffness ? 0.05 : 0.1;
     options.hourglass.coefficient = h.has("coefficient") ? h.real("coefficient") : usual;
   }

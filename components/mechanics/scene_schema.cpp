@@ -16,8 +16,11 @@ Schema block_schema() {
 
 Schema hourglass_schema() {
   Schema s("Resistance to the zero-energy modes of the one-point hexahedron.");
-  s.choice("form", {"viscous", "stiffness", "none"},
-           "`viscous` is right for plastic flow; `stiffness` for elastic bodies; `none` for tests.", "viscous");
+  s.choice(
+      "form", {"viscous", "stiffness", "physical", "none"},
+      "`viscous` is right for plastic flow; `stiffness` for elastic bodies; `physical` bends as the material does, "
+      "elastic or plastic, at some cost; `none` for tests.",
+      "viscous");
   s.quantity("coefficient", "1", "Its strength; without it 0.1 (viscous) or 0.05 (stiffness).", "",
              {0, 1, false, false});
   return s;

@@ -2,7 +2,7 @@
 // How large a step one element allows: bounds on its highest frequency and on its damping.
 #pragma once
 
-#include "components/mechanics/small_tensor.hpp"
+#include "components/mechanics/hourglass.hpp"
 
 namespace tenon {
 
@@ -33,9 +33,9 @@ TENON_KERNEL R greatest_eigenvalue_bound(const SymmetricTensor<R>& g) {
 /// eigenvalue, the mass m shared equally by 8 nodes; for (b.u)^2 <= tr G |u|^2 and |sym(u b)|^2 <= g |u|^2. Both hold
 /// with equality when a cube breathes. An assembly has no mode faster than its fastest element [HUG87, 7.3]. 1/s^2.
 template <typename R>
-TENON_KERNEL R frequency_squared_bound(const SymmetricTensor<R>& g, double lambda, double shear, const R& mass,
+TENON_KERNEL R frequency_squared_bound(const SymmetricTensor<R>& g, const Moduli<R>& moduli, const R& mass,
                                        const R& volume) {
-  return 8.0 * (lambda * trace(g) + (2.0 * shear) * greatest_eigenvalue_bound(g)) / (mass * volume);
+  return 8.0 * (moduli.lambda * trace(g) + (2.0 * moduli.shear) * greatest_eigenvalue_bound(g)) / (mass * volume);
 }
 
 /// Damping forces are taken at the velocity of half a step before, so dt^2/4 omega^2 + dt/2 c <= 1 keeps the step

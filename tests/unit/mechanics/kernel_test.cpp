@@ -194,20 +194,21 @@ TEST(Pack, MatchesOneElementAtATime) {
     }
   }
   x.push_back({}), v.push_back({});
-  const HexParameters<ViscousHourglass> parameters{1.2, 0.8, {0.06, 1.5}, {0.1}};
+  const HexParameters<ViscousHourglass> parameters{{0.06, 1.5}, {0.1}};
   for (int lane = 0; lane < lanes; lane += pack_width) {
     const HexModes<Pack> xp = gather(x.data()->data(), connectivity, lane),
                          vp = gather(v.data()->data(), connectivity, lane);
     const auto all = [](double value) { return broadcast<Pack>(value); };
     const SymmetricTensor<Pack> stress{all(1), all(2), all(3), all(0.4), all(0.5), all(0.6)};
     Batch<1> none;
-    const ElementForces<Pack> f = element_forces(xp, vp, stress, {all(0.7), all(1.0)}, parameters, none, 0, 0.01);
+    const ElementForces<Pack> f =
+        element_forces(xp, vp, stress, {all(0.7), all(1.0), all(1.0)}, {all(1.2), all(0.8)}, parameters, none, 0, 0.01);
     for (int l = 0; l < pack_width; ++l) {
       std::array<LocalIndex, 8> nodes;
       for (std::size_t i = 0; i < 8; ++i) nodes[i] = connectivity.node[i][lane + l];
       const HexModes<double> x1 = hex8_modes(nodes, x), v1 = hex8_modes(nodes, v);
       const ElementForces<double> g = element_forces(x1, v1, SymmetricTensor<double>{1, 2, 3, 0.4, 0.5, 0.6},
-                                                     {0.7, 1.0}, parameters, none, 0, 0.01);
+                                                     {0.7, 1.0, 1.0}, {1.2, 0.8}, parameters, none, 0, 0.01);
       EXPECT_NEAR(f.x.xi[l], g.x.xi, 1e-13);
       EXPECT_NEAR(f.y.eta_zeta[l], g.y.eta_zeta, 1e-13);
       EXPECT_NEAR(f.z.xi_eta_zeta[l], g.z.xi_eta_zeta, 1e-13);
@@ -222,11 +223,11 @@ TEST(Pack, MatchesOneElementAtATime) {
 TEST(ElementForces, AreInEquilibriumAndSpendTheirPower) {
   const Hexahedron h = distorted(3, 0.2), rates = distorted(4, 0.4);
   const HexModes<double> x = h.modes(), v = hex8_modes(h.nodes, rates.corners);
-  const HexParameters<ViscousHourglass> parameters{1.2, 0.8, {0.06, 1.5}, {0.1}};
+  const HexParameters<ViscousHourglass> parameters{{0.06, 1.5}, {0.1}};
   const SymmetricTensor<double> stress{1, 2, 3, 0.4, 0.5, 0.6};
   Batch<1> none;
   const double dt = 0.01;
-  const ElementForces<double> f = element_forces(x, v, stress, {0.7, 1.0}, parameters, none, 0, dt);
+  const ElementForces<double> f = element_forces(x, v, stress, {0.7, 1.0, 1.0}, {1.2, 0.8}, parameters, none, 0, dt);
   double fx[8], fy[8], fz[8];
   from_modes(f.x, fx), from_modes(f.y, fy), from_modes(f.z, fz);
   Vec3 sum{}, moment{};
@@ -249,21 +250,26 @@ TEST(ElementForces, AreInEquilibriumAndSpendTheirPower) {
 
 TEST(ElementForces, BadElementsAreCoded) {
   Hexahedron h = distorted(1, 0.1);
-  const HexParameters<NoHourglass> parameters{1.2, 0.8, {0.06, 1.5}, {}};
+  const HexParameters<NoHourglass> parameters{{0.06, 1.5}, {}};
   const SymmetricTensor<double> stress{0, 0, 0, 0, 0, 0};
   const HexModes<double> rest = hex8_modes(h.nodes, std::vector<Vec3>(8, Vec3{1, 1, 1}));
   Batch<1> none;
-  EXPECT_GT(element_forces(h.modes(), rest, stress, {1.0, 1.0}, parameters, none, 0, 1.0).step, 0);
+  EXPECT_GT(element_forces(h.modes(), rest, stress, {1.0, 1.0, 1.0}, {1.2, 0.8}, parameters, none, 0, 1.0).step, 0);
   std::vector<Vec3> fast;
   for (const Vec3& x : h.corners) fast.push_back(200.0 * x);
-  EXPECT_EQ(element_forces(h.modes(), hex8_modes(h.nodes, fast), stress, {1.0, 1.0}, parameters, none, 0, 1.0).step,
+  EXPECT_EQ(element_forces(h.modes(), hex8_modes(h.nodes, fast), stress, {1.0, 1.0, 1.0}, {1.2, 0.8}, parameters, none,
+                           0, 1.0)
+                .step,
             exploding_element);
   std::vector<Vec3> mirrored;
   for (const Vec3& x : h.corners) mirrored.push_back({-x[0], x[1], x[2]});
-  EXPECT_EQ(element_forces(hex8_modes(h.nodes, mirrored), rest, stress, {1.0, 1.0}, parameters, none, 0, 1.0).step,
-            inverted_element);
+  EXPECT_EQ(
+      element_forces(hex8_modes(h.nodes, mirrored), rest, stress, {1.0, 1.0, 1.0}, {1.2, 0.8}, parameters, none, 0, 1.0)
+          .step,
+      inverted_element);
   h.corners[3][1] = std::nan("");
-  EXPECT_EQ(element_forces(h.modes(), rest, stress, {1.0, 1.0}, parameters, none, 0, 1.0).step, exploding_element);
+  EXPECT_EQ(element_forces(h.modes(), rest, stress, {1.0, 1.0, 1.0}, {1.2, 0.8}, parameters, none, 0, 1.0).step,
+            exploding_element);
 }
 
 static_assert(HourglassForm<NoHourglass>);

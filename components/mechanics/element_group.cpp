@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "components/mechanics/element_group.hpp"
+
+#include <algorithm>
+
+namespace tenon {
+
+ElementGroup::ElementGroup(std::size_t block, const ElementBlock& elements, const MaterialDescription& material,
+                           int points_per_element)
+    : points(make_material_model(material), static_cast<std::size_t>((elements.size() + lanes - 1) / lanes),
+             points_per_element),
+      block_(block),
+      elements_(elements),
+      size_(elements.size()),
+      material_(material) {
+  const auto n = static_cast<std::size_t>((size_ + lanes - 1) / lanes);
+  for (ElementValues* values :
+       {&mass, &temperature, &temperature_used, &plastic_work, &hourglass_energy, &viscosity_energy})
+    values->resize(n);
+  if (model().damage() >= 0) dead.resize(n), internal_energy.resize(n);
+}
+
+LocalIndex ElementGroup::node(LocalIndex element, int corner) const {
+  return elements_.nodes(std::min(element, size_ - 1))[static_cast<std::size_t>(corner)];
+}
+
+// An equal share of the mass of each element for each node of it: [HUG87, 7.3.2].
+void ElementGroup::add_masses(const NodalMasses& masses) const {
+  for (LocalIndex e = 0; e < size_; ++e) {
+    const std::span<const LocalIndex> nodes = elements_.nodes(e);
+    const double share = value_of(mass, e) / static_cast<double>(nodes.size());
+    for (const LocalIndex n : nodes) masses.mass[static_cast<std::size_t>(n)] += share;
+  }
+}
+
+void ElementGroup::prepare(int, const NodeArrays&, double) {}
+
+bool ElementGroup::add_product(const NodeArrays&, const double*, double, double, ForceRow*) const {
+  return false;
+}
+
+std::vector<StateArray> ElementGroup::state() {
+  std::vector<StateArray> arrays;
+  points.add_state(arrays);
+  const auto add = [&](const char* name, ElementValues& values) {
+    if (!values.empty()) arrays.push_back({name, 1, values.data()});
+  };
+  add("temperature", temperature);
+  add("temperature_used", temperature_used);
+  add("plastic_work", plastic_work);
+  add("hourglass_energy", hourglass_energy);
+  add("viscosity_energy", viscosity_energy);
+  add("heat_given", heat_given);
+  add("dead", dead);
+  add("internal_energy", internal_energy);
+  return arrays;
+}
+
+void ElementGroup::fill_padding() {
+  if (size_ == 0) return;
+  for (const StateArray& array : state())
+    for (LocalIndex e = size_; e < static_cast<LocalIndex>(batches()) * lanes; ++e)
+      for (int row = 0; row < array.rows; ++row) array.at(e, row) = array.at(size_ - 1, row);
+}
+
+double ElementGroup::stress(LocalIndex element, int component) const {
+  return points.mean_stress(element, component);
+}
+
+double ElementGroup::history(LocalIndex element, int row) const {
+  return points.mean_history(element, row);
+}
+
+std::int64_t ElementGroup::memory() const {
+  const std::size_t values = mass.size() * 6 + heat_given.size() + dead.size() + internal_energy.size() + steps.size();
+  return points.memory() + static_cast<std::int64_t>(values * sizeof(Batch<1>));
+}
+
+}  // namespace tenon

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which kinds of elements mechanics computes, and by which formulation.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "components/mechanics/element_group.hpp"
+
+namespace tenon {
+
+/// Empty if elements of this kind are computed, else what a user should know instead.
+std::string refusal(ElementKind kind);
+
+/// Chosen by kind, material and options, once. Throws Error(usage) if they do not fit.
+std::unique_ptr<ElementGroup> make_element_group(std::size_t block, const Mesh& mesh,
+                                                 const MechanicsOptions::Block& description,
+                                                 const MechanicsOptions& options);
+
+}  // namespace tenon
