@@ -43,6 +43,7 @@ std::vector<SceneMesh> read_meshes(const Communicator& comm, Log& log, const Loa
     for (const std::string& warning : meshes.back().data.warnings) log.warning(name + ": " + warning);
     const MeshSummary& s = meshes.back().summary;
     log.print("mesh {}: {} nodes, {} elements in {} blocks ({})", name, s.nodes, s.elements, s.blocks.size(), s.source);
+    if (!meshes.back().numbering.empty()) log.print("  {}", meshes.back().numbering);
   }
   return meshes;
 }

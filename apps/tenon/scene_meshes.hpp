@@ -20,6 +20,7 @@ struct SceneMesh {
   std::string name;
   MeshData data;
   MeshSummary summary;
+  std::string numbering;  ///< what was done to the order of nodes and elements, for the log
 };
 
 /// Collective. Reads or generates on rank 0, checks the elements. Paths are relative to the scene's folder. Complaints

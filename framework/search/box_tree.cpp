@@ -3,7 +3,8 @@
 
 #include <bit>
 #include <cstdint>
-#include <numeric>
+
+#include "framework/base/hilbert.hpp"
 
 namespace tenon {
 
@@ -27,19 +28,6 @@ bool is_number(const Box& box) {
   return is_number(box.low) && is_number(box.high);
 }
 
-// Spreads 16 bits, two zeros between each.
-std::uint64_t spread(std::uint64_t x) {
-  x = (x | x << 16) & 0x0000ff0000ff;
-  x = (x | x << 8) & 0x00f00f00f00f;
-  x = (x | x << 4) & 0x0c30c30c30c3;
-  return (x | x << 2) & 0x249249249249;
-}
-
-struct Coded {
-  std::uint64_t code;
-  LocalIndex index;
-};
-
 Vec3 centre(const Box& box) {
   return {0.5 * box.low[0] + 0.5 * box.high[0], 0.5 * box.low[1] + 0.5 * box.high[1],
           0.5 * box.low[2] + 0.5 * box.high[2]};
@@ -57,64 +45,15 @@ Box bounds_of_centres(std::span<const Box> boxes) {
   return bounds;
 }
 
-// Place of a cell on the Hilbert curve through 2^48 cells, interleaved (Skilling's transposition [Ski04]).
-std::uint64_t hilbert_code(std::array<std::uint32_t, 3> x) {
-  constexpr std::uint32_t top = 1u << 15;
-  for (std::uint32_t bit = top; bit > 1; bit >>= 1) {
-    const std::uint32_t below = bit - 1;
-    for (std::size_t c = 0; c < 3; ++c) {
-      const std::uint32_t swapped = (x[0] ^ x[c]) & below;
-      const std::uint32_t invert = x[c] & bit ? below : 0, exchange = x[c] & bit ? 0 : swapped;
-      x[0] ^= invert | exchange;
-      x[c] ^= exchange;
-    }
-  }
-  x[1] ^= x[0];
-  x[2] ^= x[1];
-  std::uint32_t flip = 0;
-  for (std::uint32_t bit = top; bit > 1; bit >>= 1) flip ^= x[2] & bit ? bit - 1 : 0;
-  return spread(x[0] ^ flip) << 2 | spread(x[1] ^ flip) << 1 | spread(x[2] ^ flip);
-}
-
-// Hilbert codes of 16 bits a direction in cubic cells; centres that are not finite come first. Unlike Morton's, this
-// curve does not jump, so neighbours along it make compact groups.
-std::vector<Coded> hilbert_codes(std::span<const Box> boxes, const Box& bounds) {
-  double extent = 0;
-  if (!bounds.empty())
-    for (std::size_t c = 0; c < 3; ++c) extent = std::max(extent, bounds.high[c] - bounds.low[c]);
-  const double scale = extent > 0 && std::isfinite(65535 / extent) ? 65535 / extent : 0;
-  std::vector<Coded> codes(boxes.size());
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    const Vec3 x = centre(boxes[i]);
-    std::array<std::uint32_t, 3> cell{};
-    if (is_finite(x))
-      for (std::size_t c = 0; c < 3; ++c)
-        cell[c] = static_cast<std::uint32_t>(std::clamp((x[c] - bounds.low[c]) * scale, 0.0, 65535.0));
-    codes[i] = {hilbert_code(cell), static_cast<LocalIndex>(i)};
-  }
-  return codes;
-}
-
-// Stable radix sort of 48-bit codes, byte by byte; bytes in which all agree are skipped.
-void sort_codes(std::vector<Coded>& codes) {
-  std::vector<Coded> other(codes.size());
-  for (int shift = 0; shift < 48; shift += 8) {
-    std::array<std::size_t, 256> begin{};
-    for (const Coded& c : codes) ++begin[c.code >> shift & 0xff];
-    if (std::find(begin.begin(), begin.end(), codes.size()) != begin.end()) continue;
-    std::exclusive_scan(begin.begin(), begin.end(), begin.begin(), std::size_t{0});
-    for (const Coded& c : codes) other[begin[c.code >> shift & 0xff]++] = c;
-    codes.swap(other);
-  }
-}
-
 }  // namespace
 
 void BoxTree::build(std::span<const Box> boxes) {
   const Box bounds = bounds_of_centres(boxes);
   origin_ = bounds.empty() ? Vec3{} : centre(bounds);
-  std::vector<Coded> codes = hilbert_codes(boxes, bounds);
-  sort_codes(codes);
+  const HilbertCurve curve(bounds);
+  std::vector<HilbertPlace> codes(boxes.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i) codes[i] = {curve.code(centre(boxes[i])), static_cast<LocalIndex>(i)};
+  sort_along_curve(codes);
   order_.resize(boxes.size());
   boxes_.resize(boxes.size());
   for (std::size_t i = 0; i < codes.size(); ++i) {
