@@ -17,6 +17,8 @@ struct LinearElastic {
   Elasticity elasticity;
 
   void update(const UpdateInput& input, Batch<6>& stress, Batch<1>& state, Batch<1>& plastic_work) const;
+  void update_plane_stress(const UpdateInput& input, Batch<6>& stress, Batch<1>& state, Batch<1>& plastic_work,
+                           Batch<1>& thickness_increment) const;
 };
 
 }  // namespace tenon

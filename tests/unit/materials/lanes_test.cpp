@@ -5,6 +5,7 @@
 #include <cstring>
 #include <random>
 
+#include "components/materials/j2_hardening.hpp"
 #include "material_point.hpp"
 
 namespace tenon::testing {
@@ -78,6 +79,13 @@ TEST(Lanes, LinearElastic) {
 }
 TEST(Lanes, J2LinearHardening) {
   expect_lanes_are_independent(J2LinearHardening{hot_steel, 400e6, 1e9});
+}
+TEST(Lanes, J2Hardening) {
+  expect_lanes_are_independent(J2Hardening<VoceFlow>{hot_steel, {400e6, 200e6, 10, 0}, {}});
+  expect_lanes_are_independent(J2Hardening<VoceFlow>{hot_steel, {400e6, 200e6, 10, 0}, {40, 5}});
+  const PiecewiseLinear table({{0, 400e6}, {0.001, 500e6}, {0.02, 450e6}}, PiecewiseLinear::End::hold);
+  expect_lanes_are_independent(J2Hardening<TableFlow>{hot_steel, {table}, {}});
+  expect_lanes_are_independent(J2Hardening<TableFlow>{hot_steel, {table}, {40, 5}});
 }
 TEST(Lanes, JohnsonCook) {
   expect_lanes_are_independent(JohnsonCook{hot_steel, {806e6, 614e6, 0.168, 0.0089, 1.1, 1, 293.15, 1813}});
