@@ -2,6 +2,7 @@
 // All materials: their description, and the choice that is made once per block.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <variant>
@@ -11,6 +12,8 @@
 #include "components/materials/j2_linear_hardening.hpp"
 #include "components/materials/johnson_cook.hpp"
 #include "components/materials/linear_elastic.hpp"
+#include "components/materials/temperature_table.hpp"
+#include "framework/base/types.hpp"
 
 namespace tenon {
 
@@ -24,6 +27,10 @@ struct ThermalProperties {
   double specific_heat = 0;               ///< J/(kg K)
   double reference_temperature = 293.15;  ///< K: start temperature where no other is given, zero of the thermal energy
   double taylor_quinney = 0.9;            ///< share of plastic work that becomes heat
+  /// Over temperature, for conduction; then the two numbers above are the values at the reference temperature.
+  std::optional<TemperatureTable> conductivity_over_temperature = {}, specific_heat_over_temperature = {};
+  std::optional<std::array<Vec3, 3>> conductivity_tensor = {};  ///< W/(m K); takes the place of the number
+  double latent_heat = 0, solidus = 0, liquidus = 0;            ///< J/kg, K, K; no change of phase without latent heat
 };
 
 /// A material as a scene states it. Mechanics needs `elastic`; conduction and plastic heat need `thermal`.

@@ -3,6 +3,8 @@
 
 #include <fmt/core.h>
 
+#include "components/materials/read_thermal.hpp"
+
 namespace tenon {
 namespace {
 
@@ -40,17 +42,6 @@ Schema johnson_cook_schema() {
   return schema;
 }
 
-Schema thermal_schema() {
-  Schema schema("Thermal properties; needed by conduction, plastic heat and thermal expansion.");
-  schema.required_quantity("conductivity", "W/(m K)", "Heat conductivity.", Range::positive());
-  schema.required_quantity("specific_heat", "J/(kg K)", "Specific heat.", Range::positive());
-  schema.quantity("expansion", "1/K", "Linear coefficient of thermal expansion.", "0 1/K");
-  schema.quantity("reference_temperature", "K", "Start temperature where no other is given; also in degC.", "293.15 K",
-                  Range::not_negative());
-  schema.quantity("taylor_quinney", "1", "Share of the plastic work that becomes heat.", "0.9", {0, 1, false, false});
-  return schema;
-}
-
 LinearHardeningParameters read_linear_hardening(const scene::Value& v) {
   return {v.real("yield_stress"), v.real("hardening_modulus")};
 }
@@ -80,7 +71,8 @@ Schema material_schema() {
   schema.variants("plasticity", scene::Key::Type::object,
                   {{"linear_hardening", linear_hardening_schema()}, {"johnson_cook", johnson_cook_schema()}},
                   "Plastic flow; elastic without it.");
-  schema.object("thermal", thermal_schema(), "Thermal properties; needed by conduction, plastic heat and expansion.");
+  schema.object("thermal", thermal_properties_schema(),
+                "Thermal properties; needed by conduction, plastic heat and expansion.");
   return schema;
 }
 
@@ -104,8 +96,7 @@ MaterialDescription read_material(const std::string& name, const scene::Value& v
   }
   if (value.has("thermal")) {
     const scene::Value v = value.child("thermal");
-    material.thermal = ThermalProperties{v.real("conductivity"), v.real("specific_heat"),
-                                         v.real("reference_temperature"), v.real("taylor_quinney")};
+    material.thermal = read_thermal_properties(v, diagnostics);
     if (material.elastic) material.elastic->expansion = v.real("expansion");
   }
   return material;

@@ -27,7 +27,7 @@ std::vector<std::vector<LocalIndex>> neighbours(const Mesh& mesh, const std::vec
 
 }  // namespace
 
-ConductionMatrix::ConductionMatrix(const Mesh& mesh, std::vector<double> conductivity_of_block)
+ConductionMatrix::ConductionMatrix(const Mesh& mesh, std::vector<Conductivity> conductivity_of_block)
     : mesh_(mesh), conductivity_(std::move(conductivity_of_block)) {
   for (const ElementBlock& block : mesh.blocks) tables_.emplace_back(block.kind);
   make_pattern();
@@ -70,12 +70,13 @@ void ConductionMatrix::place_elements() {
   }
 }
 
-ConductionMatrix::BadElement ConductionMatrix::assemble(std::span<const Vec3> coordinates) {
+ConductionMatrix::BadElement ConductionMatrix::assemble(std::span<const Vec3> coordinates,
+                                                        std::span<const double> temperature) {
   std::ranges::fill(values_, 0.0);
   stiffest_ = {};
   LocalIndex first_element = 0;
   for (std::size_t b = 0; b < mesh_.blocks.size(); ++b) {
-    const BadElement bad = assemble_block(static_cast<LocalIndex>(b), first_element, coordinates);
+    const BadElement bad = assemble_block(static_cast<LocalIndex>(b), first_element, coordinates, temperature);
     if (bad.id != no_id) return bad;
     first_element += mesh_.blocks[b].size();
   }
@@ -96,11 +97,12 @@ void ConductionMatrix::finish() {
 }
 
 ConductionMatrix::BadElement ConductionMatrix::assemble_block(LocalIndex b, LocalIndex first_element,
-                                                              std::span<const Vec3> coordinates) {
+                                                              std::span<const Vec3> coordinates,
+                                                              std::span<const double> temperature) {
   const ElementBlock& block = mesh_.blocks[static_cast<std::size_t>(b)];
   const ElementTable& table = tables_[static_cast<std::size_t>(b)];
-  double conductivity[lanes];
-  std::ranges::fill(conductivity, conductivity_[static_cast<std::size_t>(b)]);
+  const bool warm = !conductivity_[static_cast<std::size_t>(b)].is_constant();
+  double mean[lanes] = {};  // temperature
   CornerBatch corners{};
   ConductionBatch links;
   for (LocalIndex first = 0; first < block.size(); first += lanes) {
@@ -109,8 +111,12 @@ ConductionMatrix::BadElement ConductionMatrix::assemble_block(LocalIndex b, Loca
       const auto nodes = block.nodes(first + std::min(l, count - 1));
       for (std::size_t a = 0; a < nodes.size(); ++a)
         for (std::size_t c = 0; c < 3; ++c) corners.x[a][c][l] = coordinates[static_cast<std::size_t>(nodes[a])][c];
+      if (!warm) continue;
+      double sum = 0;
+      for (const LocalIndex n : nodes) sum += temperature[static_cast<std::size_t>(n)];
+      mean[l] = sum / static_cast<double>(nodes.size());
     }
-    conduction(table, corners, conductivity, links);
+    conduct(static_cast<std::size_t>(b), corners, mean, links);
     for (LocalIndex l = 0; l < count; ++l) {
       const LocalIndex e = first + l;
       if (!(links.least_jacobian[l] > 0)) return {block.ids[static_cast<std::size_t>(e)], b, e};
@@ -122,6 +128,15 @@ ConductionMatrix::BadElement ConductionMatrix::assemble_block(LocalIndex b, Loca
       note_eigenvalues(table, links, b, first, count, static_cast<std::size_t>(first_element + first));
   }
   return {};
+}
+
+void ConductionMatrix::conduct(std::size_t block, const CornerBatch& corners, const double (&temperature)[lanes],
+                               ConductionBatch& links) const {
+  const Conductivity& k = conductivity_[block];
+  if (k.tensor) return conduction(tables_[block], corners, *k.tensor, links);
+  double at[lanes];
+  for (int l = 0; l < lanes; ++l) at[l] = k.over_temperature(temperature[l]);
+  conduction(tables_[block], corners, at, links);
 }
 
 void ConductionMatrix::scatter(std::size_t place, const ConductionBatch& links, int lane, const ElementTable& table) {

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "components/thermal/conductivity.hpp"
 #include "components/thermal/element_conduction.hpp"
 #include "framework/mesh/mesh.hpp"
 
@@ -16,17 +17,19 @@ namespace tenon::thermal {
 /// row.
 class ConductionMatrix {
  public:
-  /// Collective only in that every rank makes its own. `conductivity` (W/(m K)) and `capacity` (J/K per node of each
-  /// element, of all blocks one after the other; empty if no eigenvalue bound is wanted) must outlive this.
-  ConductionMatrix(const Mesh& mesh, std::vector<double> conductivity_of_block);
+  /// Collective only in that every rank makes its own. The mesh must outlive this.
+  ConductionMatrix(const Mesh& mesh, std::vector<Conductivity> conductivity_of_block);
 
   /// An element whose Jacobian is not positive somewhere, or none.
   struct BadElement {
     GlobalId id = no_id;
     LocalIndex block = no_index, element = no_index;
   };
-  /// Local. Computes all links at these node positions; `finish` must follow. Stops at the first bad element.
-  BadElement assemble(std::span<const Vec3> coordinates);
+  /// Local. Computes all links at these node positions and temperatures (of all local nodes, K; an element conducts as
+  /// at the mean of its nodes; may be empty if no conductivity depends on it); `finish` must follow. Stops at the first
+  /// bad element.
+  BadElement assemble(std::span<const Vec3> coordinates, std::span<const double> temperature);
+  const Conductivity& conductivity(std::size_t block) const { return conductivity_[block]; }
 
   /// Local. Adds to K_ij and K_ji (W/K), between `assemble` and `finish`; nodes of one element only.
   void add_link(LocalIndex i, LocalIndex j, double value);
@@ -64,14 +67,17 @@ class ConductionMatrix {
   void make_pattern();
   void place_elements();
   LocalIndex place(LocalIndex i, LocalIndex j) const;
-  BadElement assemble_block(LocalIndex block, LocalIndex first_element, std::span<const Vec3> coordinates);
+  BadElement assemble_block(LocalIndex block, LocalIndex first_element, std::span<const Vec3> coordinates,
+                            std::span<const double> temperature);
+  void conduct(std::size_t block, const CornerBatch& corners, const double (&temperature)[lanes],
+               ConductionBatch& links) const;
   void scatter(std::size_t place, const ConductionBatch& links, int lane, const ElementTable& table);
   void note_eigenvalues(const ElementTable& table, const ConductionBatch& links, LocalIndex block, LocalIndex first,
                         LocalIndex count, std::size_t first_of_all);
 
   const Mesh& mesh_;
-  std::vector<double> conductivity_;  // of blocks
-  std::vector<ElementTable> tables_;  // of blocks
+  std::vector<Conductivity> conductivity_;  // of blocks
+  std::vector<ElementTable> tables_;        // of blocks
   std::vector<LocalIndex> offsets_, columns_;
   std::vector<double> values_, diagonal_;
   std::vector<LocalIndex> row_of_node_;                          // no_index for ghosts

@@ -57,21 +57,25 @@ ElementTable::ElementTable(ElementKind element_kind)
   shape_gradients(kind, element_centre(kind), centre_gradient);
 }
 
-void conduction(const ElementTable& table, const CornerBatch& corners, const double (&conductivity)[lanes],
-                ConductionBatch& result) {
+namespace {
+
+/// The integral, where `flux(b, l, kb)` gives k b of lane l.
+template <typename Flux>
+void integrate(const ElementTable& table, const CornerBatch& corners, ConductionBatch& result, const Flux& flux) {
   for (int p = 0; p < table.pairs; ++p)
     for (int l = 0; l < lanes; ++l) result.link[p][l] = 0;
   for (int l = 0; l < lanes; ++l) result.least_jacobian[l] = std::numeric_limits<double>::infinity();
 
   Lane j[3][3], cof[3][3], det, factor;
   Lane b[max_element_nodes][3];  // det times the gradient of N_a in space
+  Lane q_of[3];                  // the flux that it drives
   for (std::size_t q = 0; q < static_cast<std::size_t>(table.points); ++q) {
     jacobian(table, table.gradient[q], corners, j);
     cofactors(j, cof, det);
     for (int l = 0; l < lanes; ++l) {
       const double least = result.least_jacobian[l];
       result.least_jacobian[l] = det.v[l] < least || det.v[l] != det.v[l] ? det.v[l] : least;
-      factor.v[l] = conductivity[l] * table.weight[q] / det.v[l];
+      factor.v[l] = table.weight[q] / det.v[l];
     }
     for (int a = 0; a < table.nodes; ++a) {
       const Vec3& g = table.gradient[q][static_cast<std::size_t>(a)];
@@ -79,12 +83,34 @@ void conduction(const ElementTable& table, const CornerBatch& corners, const dou
         for (int l = 0; l < lanes; ++l)
           b[a][c].v[l] = cof[c][0].v[l] * g[0] + cof[c][1].v[l] * g[1] + cof[c][2].v[l] * g[2];
     }
-    for (int i = 0, pair = 0; i < table.nodes; ++i)
+    for (int i = 0, pair = 0; i < table.nodes; ++i) {
+      flux(b[i], factor, q_of);
       for (int k = i + 1; k < table.nodes; ++k, ++pair)
         for (int l = 0; l < lanes; ++l)
           result.link[pair][l] +=
-              factor.v[l] * (b[i][0].v[l] * b[k][0].v[l] + b[i][1].v[l] * b[k][1].v[l] + b[i][2].v[l] * b[k][2].v[l]);
+              q_of[0].v[l] * b[k][0].v[l] + q_of[1].v[l] * b[k][1].v[l] + q_of[2].v[l] * b[k][2].v[l];
+    }
   }
+}
+
+}  // namespace
+
+void conduction(const ElementTable& table, const CornerBatch& corners, const double (&conductivity)[lanes],
+                ConductionBatch& result) {
+  integrate(table, corners, result, [&conductivity](const Lane(&b)[3], const Lane& factor, Lane(&q)[3]) {
+    for (int c = 0; c < 3; ++c)
+      for (int l = 0; l < lanes; ++l) q[c].v[l] = factor.v[l] * conductivity[l] * b[c].v[l];
+  });
+}
+
+void conduction(const ElementTable& table, const CornerBatch& corners, const std::array<Vec3, 3>& conductivity,
+                ConductionBatch& result) {
+  integrate(table, corners, result, [&conductivity](const Lane(&b)[3], const Lane& factor, Lane(&q)[3]) {
+    for (std::size_t c = 0; c < 3; ++c)
+      for (int l = 0; l < lanes; ++l)
+        q[c].v[l] = factor.v[l] *
+                    (conductivity[c][0] * b[0].v[l] + conductivity[c][1] * b[1].v[l] + conductivity[c][2] * b[2].v[l]);
+  });
 }
 
 void eigenvalue_bound(const ElementTable& table, const ConductionBatch& links,

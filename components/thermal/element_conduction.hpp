@@ -41,6 +41,9 @@ struct ConductionBatch {
 
 void conduction(const ElementTable& table, const CornerBatch& corners, const double (&conductivity)[lanes],
                 ConductionBatch& result);
+/// The same with a symmetric conductivity tensor, W/(m K).
+void conduction(const ElementTable& table, const CornerBatch& corners, const std::array<Vec3, 3>& conductivity,
+                ConductionBatch& result);
 
 /// Upper bound of the greatest eigenvalue of C^-1 K of each element, 1/s: the root of order 128 of the trace of its
 /// 128th power, at most 8^(1/128) = 1.6 % too high. `capacity` (J/K): [node][lane], lumped. The greatest eigenvalue of

@@ -15,7 +15,13 @@ using scene::Value;
 
 const std::vector<std::pair<std::string, ThermalStepper>> steppers{{"explicit", ThermalStepper::explicit_euler},
                                                                    {"backward_euler", ThermalStepper::backward_euler},
-                                                                   {"crank_nicolson", ThermalStepper::crank_nicolson}};
+                                                                   {"crank_nicolson", ThermalStepper::crank_nicolson},
+                                                                   {"tr_bdf2", ThermalStepper::tr_bdf2},
+                                                                   {"steady", ThermalStepper::steady}};
+const std::vector<std::pair<std::string, ThermalPreconditioner>> preconditioners{
+    {"automatic", ThermalPreconditioner::automatic},
+    {"jacobi", ThermalPreconditioner::jacobi},
+    {"multigrid", ThermalPreconditioner::multigrid}};
 
 Schema block_schema() {
   Schema s("Material of a block of the mesh.");
@@ -25,7 +31,15 @@ Schema block_schema() {
 
 Schema time_step_schema() {
   Schema s("Time step of the component.");
-  s.quantity("fixed", "s", "Step; needed by the implicit steppers.", "", Range::positive());
+  s.quantity("fixed", "s", "Step; needed by backward_euler and crank_nicolson; tr_bdf2 chooses its own without it.", "",
+             Range::positive());
+  s.quantity("tolerance", "delta_K", "Greatest error of any temperature in one step of tr_bdf2.", "0.1 K",
+             Range::positive());
+  s.quantity("initial", "s",
+             "First step that tr_bdf2 tries; without it one that changes no temperature by more than "
+             "the tolerance.",
+             "", Range::positive());
+  s.quantity("maximum", "s", "Longest step of tr_bdf2.", "", Range::positive());
   s.quantity("scale", "1", "Share of the stable limit that the explicit stepper takes.", "0.9", {0, 1, true, false});
   return s;
 }
@@ -34,6 +48,13 @@ Schema solver_schema() {
   Schema s("Conjugate gradients of the implicit steppers.");
   s.quantity("tolerance", "1", "Greatest residual relative to the right-hand side.", "1e-12", {0, 1e-2, true, false});
   s.integer("max_iterations", "The run stops as unstable if they are not enough.", "2000", {1, 1e9, false, false});
+  s.quantity("nonlinear_tolerance", "1", "Residual at which Newton's iterations stop, relative to their first one.",
+             "1e-8", {0, 1e-2, true, false});
+  s.choice(
+      "preconditioner", {"automatic", "jacobi", "multigrid"},
+      "`jacobi` is quickest for short steps, `multigrid` for long ones and large meshes; `automatic` changes to it "
+      "for good when a solution takes more than 60 iterations.",
+      "automatic");
   return s;
 }
 
@@ -66,6 +87,14 @@ Schema convection_schema() {
   s.text("side_set", "Side set of the mesh.").required();
   s.required_quantity("coefficient", "W/(m^2 K)", "Heat transfer coefficient.", Range::positive());
   s.function("ambient", "K", "Temperature of the surroundings over time.").required();
+  return s;
+}
+
+Schema radiation_schema() {
+  Schema s("Radiation to and from the surroundings; not with the explicit stepper.");
+  s.text("side_set", "Side set of the mesh.").required();
+  s.required_quantity("emissivity", "1", "Emissivity of the surface.", {0, 1, true, false});
+  s.function("ambient", "K", "Absolute temperature of the surroundings over time.").required();
   return s;
 }
 
@@ -108,8 +137,18 @@ ThermalBlock thermal_block(const std::string& block, const Value& value, const M
                       fmt::format("material: '{}' has no thermal properties; give it a 'thermal' block", name));
     return {};
   }
-  return {block, material.density, material.thermal->specific_heat, material.thermal->conductivity,
-          material.thermal->reference_temperature};
+  const ThermalProperties& t = *material.thermal;
+  return {block,
+          material.density,
+          t.specific_heat,
+          t.conductivity,
+          t.reference_temperature,
+          t.conductivity_over_temperature,
+          t.specific_heat_over_temperature,
+          t.conductivity_tensor,
+          t.latent_heat,
+          t.solidus,
+          t.liquidus};
 }
 
 std::vector<ThermalBlock> read_blocks(const Value& value, const MeshSummary& mesh, const Materials& materials,
@@ -170,6 +209,10 @@ void read_conditions(const Value& value, const MeshSummary& mesh, ThermalOptions
     check_name(item, "side_set", mesh.side_sets, "side set", mesh, diagnostics);
     options.convection.push_back({item.text("side_set"), item.real("coefficient"), item.function("ambient")});
   }
+  for (const Value& item : items("radiation")) {
+    check_name(item, "side_set", mesh.side_sets, "side set", mesh, diagnostics);
+    options.radiation.push_back({item.text("side_set"), item.real("emissivity"), item.function("ambient")});
+  }
   for (const Value& item : items("sources")) {
     check_name(item, "block", mesh.blocks, "block", mesh, diagnostics);
     options.sources.push_back({item.text("block"), item.function("power")});
@@ -183,15 +226,40 @@ void read_stepping(const Value& value, ThermalOptions& options, Diagnostics& dia
     const Value step = value.child("time_step");
     if (step.has("fixed")) options.fixed_step = step.real("fixed");
     options.step_scale = step.real("scale");
+    options.control.tolerance = step.real("tolerance");
+    if (step.has("initial")) options.control.initial = step.real("initial");
+    if (step.has("maximum")) options.control.maximum = step.real("maximum");
   }
   if (value.has("solver")) {
     const Value solver = value.child("solver");
     options.tolerance = solver.real("tolerance");
     options.max_iterations = static_cast<int>(solver.integer("max_iterations"));
+    options.nonlinear_tolerance = solver.real("nonlinear_tolerance");
+    for (const auto& [name, preconditioner] : preconditioners)
+      if (solver.text("preconditioner") == name) options.preconditioner = preconditioner;
   }
-  if (options.stepper != ThermalStepper::explicit_euler && !options.fixed_step)
+  const bool needs_step =
+      options.stepper == ThermalStepper::backward_euler || options.stepper == ThermalStepper::crank_nicolson;
+  if (needs_step && !options.fixed_step)
     diagnostics.error(value.where("stepper"),
                       fmt::format("stepper: '{}' needs a step; give time_step: {{fixed: ...}}", value.text("stepper")));
+}
+
+/// What goes only together, or not at all.
+void check_stepper(const Value& value, const ThermalOptions& options, Diagnostics& diagnostics) {
+  const bool warm = std::ranges::any_of(options.blocks, [](const ThermalBlock& b) {
+    return b.conductivity_over_temperature || b.specific_heat_over_temperature || b.latent_heat > 0;
+  });
+  if (options.stepper == ThermalStepper::explicit_euler && (warm || !options.radiation.empty()))
+    diagnostics.error(
+        value.where("stepper"),
+        "stepper: 'explicit' knows no properties over temperature, latent heat or radiation; choose tr_bdf2, "
+        "backward_euler or crank_nicolson");
+  if (options.stepper == ThermalStepper::steady && options.prescribed.empty() && options.convection.empty() &&
+      options.radiation.empty())
+    diagnostics.error(value.where("stepper"),
+                      "stepper: nothing determines the steady temperature; give prescribed_temperatures, convection or "
+                      "radiation");
 }
 
 }  // namespace
@@ -203,8 +271,11 @@ Schema thermal_schema() {
   s.text("material", "Material of every block that is not named under `blocks`.");
   s.named("blocks", block_schema(), "Materials block by block.");
   s.choice(
-      "stepper", {"explicit", "backward_euler", "crank_nicolson"},
-      "`explicit` is limited by the smallest element; the implicit ones (of first and second order) take any step.",
+      "stepper", {"explicit", "backward_euler", "crank_nicolson", "tr_bdf2", "steady"},
+      "`explicit` is limited by the smallest element; `backward_euler` and `crank_nicolson` (first and second order) "
+      "take "
+      "any fixed step; `tr_bdf2` (second order, no ringing) chooses its own; `steady` finds the steady state in every "
+      "step.",
       "explicit");
   s.object("time_step", time_step_schema(), "Time step of the component.");
   s.object("solver", solver_schema(), "Conjugate gradients of the implicit steppers.");
@@ -214,6 +285,7 @@ Schema thermal_schema() {
   s.list("prescribed_temperatures", prescribed_schema(), "Temperatures that node sets have.");
   s.list("fluxes", flux_schema(), "Heat fluxes through side sets.");
   s.list("convection", convection_schema(), "Exchange with the surroundings through side sets.");
+  s.list("radiation", radiation_schema(), "Radiation to and from the surroundings through side sets.");
   s.list("sources", source_schema(), "Heat sources within blocks.");
   return s;
 }
@@ -225,6 +297,7 @@ ThermalOptions read_thermal(const Value& value, const MeshSummary& mesh,
   read_stepping(value, options, diagnostics);
   read_initial(value, mesh, options, diagnostics);
   read_conditions(value, mesh, options, diagnostics);
+  check_stepper(value, options, diagnostics);
   return options;
 }
 

@@ -13,8 +13,8 @@ namespace {
 
 constexpr GlobalId no_element = std::numeric_limits<GlobalId>::max();
 
-std::vector<double> conductivities(const Mesh& mesh, const ThermalOptions& options) {
-  std::vector<double> of_block;
+std::vector<thermal::Conductivity> conductivities(const Mesh& mesh, const ThermalOptions& options) {
+  std::vector<thermal::Conductivity> of_block;
   for (const ElementBlock& block : mesh.blocks) {
     const auto found = std::ranges::find(options.blocks, block.name, &ThermalBlock::block);
     if (found == options.blocks.end())
@@ -24,7 +24,9 @@ std::vector<double> conductivities(const Mesh& mesh, const ThermalOptions& optio
       throw Error(ExitCode::usage, fmt::format("heat conduction: block '{}' of the mesh {} consists of {}; only solid "
                                                "elements conduct",
                                                block.name, mesh.source, topology(block.kind).name));
-    of_block.push_back(found->conductivity);
+    thermal::Conductivity& k = of_block.emplace_back(found->conductivity);
+    if (found->conductivity_over_temperature) k.over_temperature = *found->conductivity_over_temperature;
+    k.tensor = found->conductivity_tensor;
   }
   return of_block;
 }
@@ -37,9 +39,6 @@ Thermal::Thermal(std::string name, std::shared_ptr<const Mesh> mesh, ThermalOpti
       options_(std::move(options)),
       matrix_(*mesh_, conductivities(*mesh_, options_)),
       solver_(*mesh_) {
-  if (!is_explicit() && !options_.fixed_step)
-    throw Error(ExitCode::usage,
-                fmt::format("component '{}': an implicit stepper needs time_step.fixed", this->name()));
   const auto nodes = static_cast<std::size_t>(mesh_->nodes());
   const std::size_t rows = mesh_->owned_nodes.size();
   coordinates_ = mesh_->coordinates;
@@ -49,10 +48,18 @@ Thermal::Thermal(std::string name, std::shared_ptr<const Mesh> mesh, ThermalOpti
   for (std::vector<double>* v : {&initial_, &rise_, &capacity_, &volume_, &film_, &waiting_heat_, &right_side_,
                                  &residual_, &diagonal_, &inverse_diagonal_})
     v->assign(rows, 0.0);
+  for (std::size_t b = 0; b < mesh_->blocks.size(); ++b)
+    warm_conductivity_ = warm_conductivity_ || !matrix_.conductivity(b).is_constant();
   find_blocks();
   make_capacity();
+  check_stepper();
   make_loads();
   make_held();
+  if (!goes_by_stages()) return;
+  for (std::vector<double>* v :
+       {&rate_, &first_rate_, &mid_rate_, &target_, &start_rise_, &start_energy_, &given_, &received_})
+    v->assign(rows, 0.0);
+  for (std::size_t kind = 0; kind < supplies; ++kind) pending_[kind].assign(supplied_[kind].size(), 0.0);
 }
 
 double Thermal::theta() const {
@@ -61,7 +68,7 @@ double Thermal::theta() const {
       return 0;
     case ThermalStepper::crank_nicolson:
       return 0.5;
-    case ThermalStepper::backward_euler:
+    default:
       break;
   }
   return 1;
@@ -74,7 +81,12 @@ double Thermal::stable_limit() {
 
 double Thermal::time_step() {
   refresh_geometry();
-  if (!is_explicit()) return *options_.fixed_step;
+  if (!is_explicit()) {
+    if (options_.fixed_step) return *options_.fixed_step;
+    if (is_steady()) return std::numeric_limits<double>::infinity();
+    if (next_step_ == 0) first_step();
+    return next_step_;
+  }
   const double limit = options_.step_scale * stable_limit();
   return options_.fixed_step ? std::min(*options_.fixed_step, limit) : limit;
 }
@@ -82,6 +94,8 @@ double Thermal::time_step() {
 StepLimiter Thermal::limiter() {
   const double dt = time_step();
   if (options_.fixed_step && dt == *options_.fixed_step) return {dt, "time_step.fixed"};
+  if (is_steady()) return {dt, "nothing: the state is steady"};
+  if (!is_explicit()) return {dt, fmt::format("time_step.tolerance, {:.3g} K", options_.control.tolerance)};
   const auto& mine = matrix_.stiffest();
   const double greatest = mesh_->comm.max(mine.block == no_index ? 0.0 : mine.eigenvalue);
   const bool has_it = mine.block != no_index && mine.eigenvalue == greatest;
@@ -112,7 +126,6 @@ void Thermal::assemble() {
   const ScopedTimer timer(*assemble_time_);
   for (std::size_t n = 0; n < coordinates_.size(); ++n)
     for (std::size_t c = 0; c < 3; ++c) coordinates_[n][c] = mesh_->coordinates[n][c] + displacement_[3 * n + c];
-  throw_if_inverted(matrix_.assemble(coordinates_));
   for (FluxLoad& load : flux_loads_) load.surface.update(coordinates_);
   std::ranges::fill(film_, 0.0);
   for (ConvectionLoad& load : convection_loads_) {
@@ -120,10 +133,10 @@ void Thermal::assemble() {
     const auto rows = load.surface.rows();
     for (std::size_t i = 0; i < rows.size(); ++i)
       film_[static_cast<std::size_t>(rows[i])] += load.coefficient * load.surface.areas()[i];
-    add_film_links(load);
   }
-  matrix_.finish();
-  assembled_ = true;
+  for (RadiationLoad& load : radiation_loads_) load.surface.update(coordinates_);
+  throw_if_inverted(assemble_matrix());
+  assembled_ = multigrid_stale_ = true;
   if (!is_explicit()) return;
   // The bounds of conduction and convection add up: the greatest eigenvalue of a sum is not above the sum of theirs.
   double film = 0;
@@ -132,6 +145,14 @@ void Thermal::assemble() {
   std::array<double, 2> greatest{matrix_.stiffest().eigenvalue, film};
   mesh_->comm.max(greatest);
   stiffest_ = greatest[0] + greatest[1];
+}
+
+// Local: geometry, surfaces and temperatures are up to date.
+thermal::ConductionMatrix::BadElement Thermal::assemble_matrix() {
+  const auto bad = matrix_.assemble(coordinates_, temperature_);
+  for (const ConvectionLoad& load : convection_loads_) add_film_links(load);
+  matrix_.finish();
+  return bad;
 }
 
 // The film matrix is the mean of the lumped and the consistent one, whose leading errors along a surface cancel

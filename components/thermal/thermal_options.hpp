@@ -7,12 +7,15 @@
 #include <string>
 #include <vector>
 
+#include "components/thermal/conductivity.hpp"
+#include "components/thermal/heat_content.hpp"
 #include "framework/base/time_function.hpp"
 #include "framework/base/types.hpp"
 
 namespace tenon {
 
-enum class ThermalStepper { explicit_euler, backward_euler, crank_nicolson };
+enum class ThermalStepper { explicit_euler, backward_euler, crank_nicolson, tr_bdf2, steady };
+enum class ThermalPreconditioner { automatic, jacobi, multigrid };
 
 /// Material of one block.
 struct ThermalBlock {
@@ -21,6 +24,11 @@ struct ThermalBlock {
   double specific_heat = 0;               ///< J/(kg K)
   double conductivity = 0;                ///< W/(m K)
   double reference_temperature = 293.15;  ///< K; start temperature where no other is given
+
+  // What takes the place of the two numbers, or adds to them; the steppers that are implicit only.
+  std::optional<TemperatureTable> conductivity_over_temperature = {}, specific_heat_over_temperature = {};
+  std::optional<std::array<Vec3, 3>> conductivity_tensor = {};  ///< W/(m K); also explicit
+  double latent_heat = 0, solidus = 0, liquidus = 0;            ///< J/kg, K, K; no change of phase without latent heat
 };
 
 /// T = value + gradient . x at the nodes of a block, of a node set, or everywhere. Later entries win.
@@ -49,6 +57,20 @@ struct Convection {
   TimeFunction ambient;    ///< K
 };
 
+/// emissivity sigma (ambient^4 - T^4) into the body, absolute temperatures, per current area. Implicit steppers only.
+struct Radiation {
+  std::string side_set;
+  double emissivity = 0;
+  TimeFunction ambient;  ///< K
+};
+
+/// How the TR-BDF2 stepper chooses its step.
+struct StepControl {
+  double tolerance = 0.1;              ///< K, error of a step anywhere
+  std::optional<double> initial = {};  ///< s, first step tried
+  std::optional<double> maximum = {};  ///< s
+};
+
 /// Per reference volume, so that deformation neither makes nor destroys heat.
 struct HeatSource {
   std::string block;
@@ -58,15 +80,19 @@ struct HeatSource {
 struct ThermalOptions {
   std::vector<ThermalBlock> blocks;  ///< one for each block of the mesh, in any order
   ThermalStepper stepper = ThermalStepper::explicit_euler;
-  std::optional<double> fixed_step;  ///< s; needed by the implicit steppers
+  std::optional<double> fixed_step;  ///< s; needed by backward Euler and Crank-Nicolson
   double step_scale = 0.9;           ///< of the stable limit; explicit only
   double tolerance = 1e-12;          ///< of the linear solver, relative to the right-hand side
   int max_iterations = 2000;
+  double nonlinear_tolerance = 1e-8;  ///< of Newton's iterations, relative to the first residual of a stage
+  ThermalPreconditioner preconditioner = ThermalPreconditioner::automatic;
+  StepControl control;
 
   std::vector<InitialTemperature> initial;
   std::vector<PrescribedTemperature> prescribed;
   std::vector<SurfaceFlux> fluxes;
   std::vector<Convection> convection;
+  std::vector<Radiation> radiation;
   std::vector<HeatSource> sources;
 
   /// For programs and manufactured solutions; a scene cannot give them. Positions are of the reference configuration

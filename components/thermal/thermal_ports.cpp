@@ -29,7 +29,7 @@ void Thermal::read_heat_flux(std::span<double> out) const {
   for (std::size_t b = 0; b < mesh_->blocks.size(); ++b) {
     const ElementBlock& block = mesh_->blocks[b];
     const thermal::ElementTable& table = matrix_.table(b);
-    const double conductivity = options_.blocks[block_options_[b]].conductivity;
+    const thermal::Conductivity& conductivity = matrix_.conductivity(b);
     for (LocalIndex e = 0; e < block.size(); ++e) {
       const auto nodes = block.nodes(e);
       for (std::size_t a = 0; a < nodes.size(); ++a) {
@@ -38,7 +38,10 @@ void Thermal::read_heat_flux(std::span<double> out) const {
       }
       const Vec3 gradient = thermal::centre_gradient(table, std::span(corners).first(nodes.size()),
                                                      std::span(values).first(nodes.size()));
-      for (std::size_t c = 0; c < 3; ++c) out[place++] = -conductivity * gradient[c];
+      double mean = 0;
+      for (std::size_t a = 0; a < nodes.size(); ++a) mean += values[a];
+      const Vec3 uphill = conductivity.times(gradient, mean / static_cast<double>(nodes.size()));
+      for (std::size_t c = 0; c < 3; ++c) out[place++] = -uphill[c];
     }
   }
 }
@@ -66,11 +69,15 @@ void Thermal::receive_displacement(std::span<const double> values) {
 void Thermal::energies(std::vector<EnergyTerm>& terms) {
   EnergyTerm& stored = terms.emplace_back(EnergyTerm{"thermal_energy", EnergyTerm::Role::stored, {}});
   for (std::size_t k = 0; k < rise_.size(); ++k) {
-    stored.local.add_product(capacity_[k], rise_[k]);
+    if (content_.is_linear())
+      stored.local.add_product(capacity_[k], rise_[k]);
+    else
+      stored.local.add(node_energy(k));
     stored.local.add(waiting_heat_[k]);
   }
-  constexpr std::array<const char*, supplies> rows{"transferred_heat", "flux_heat", "convection_heat", "source_heat",
-                                                   "prescribed_heat"};
+  constexpr std::array<const char*, supplies> rows{"transferred_heat", "flux_heat",       "convection_heat",
+                                                   "source_heat",      "prescribed_heat", "radiation_heat",
+                                                   "steady_heat"};
   for (std::size_t kind = 0; kind < supplies; ++kind) {
     if (kind != transferred && !booked_[kind]) continue;
     terms.emplace_back(EnergyTerm{rows[kind], EnergyTerm::Role::supplied, {}}).local.add(supplied_[kind]);
@@ -78,8 +85,8 @@ void Thermal::energies(std::vector<EnergyTerm>& terms) {
 }
 
 std::vector<HistoryValue> Thermal::history_values() {
-  HistoryValue greatest{"temperature_max", HistoryValue::Reduce::max, -std::numeric_limits<double>::infinity()};
-  HistoryValue least{"temperature_min", HistoryValue::Reduce::min, std::numeric_limits<double>::infinity()};
+  HistoryValue greatest{"max_temperature", HistoryValue::Reduce::max, -std::numeric_limits<double>::infinity()};
+  HistoryValue least{"min_temperature", HistoryValue::Reduce::min, std::numeric_limits<double>::infinity()};
   for (const LocalIndex n : mesh_->owned_nodes) {
     const double t = temperature_[static_cast<std::size_t>(n)];
     greatest.local = std::max(greatest.local, t);
@@ -93,7 +100,8 @@ std::vector<SkipCount> Thermal::skips() const {
 }
 
 std::vector<std::pair<std::string, std::vector<double>*>> Thermal::owned_state() {
-  constexpr std::array<const char*, supplies> names{"transferred", "flux", "convection", "source", "prescribed"};
+  constexpr std::array<const char*, supplies> names{"transferred", "flux",      "convection", "source",
+                                                    "prescribed",  "radiation", "steady"};
   std::vector<std::pair<std::string, std::vector<double>*>> state{
       {"initial_temperature", &initial_}, {"temperature_rise", &rise_}, {"waiting_heat", &waiting_heat_}};
   for (std::size_t kind = 0; kind < supplies; ++kind)
@@ -116,17 +124,30 @@ void Thermal::save(CheckpointWriter& file) {
   file.array(name() + ".displacement", order, displacement, 3);
   file.array(name() + ".last_increment", order, increment, 1);
   file.scalar(name() + ".last_dt", last_dt_);
+  file.scalar(name() + ".next_step", next_step_);
+  file.integer(name() + ".multigrid", multigrid_chosen_ ? 1 : 0);
+  file.scalar(name() + ".multigrid_factor", multigrid_factor_);
+  // A displacement that has come but is not yet assembled changes the matrix, as it will in a run that goes on.
+  file.integer(name() + ".multigrid_stale", mesh_->comm.any(multigrid_stale_ || moved_here_) ? 1 : 0);
 }
 
 void Thermal::load(const CheckpointReader& file) {
   std::vector<GlobalId> ids;
   for (const LocalIndex n : mesh_->owned_nodes) ids.push_back(mesh_->node_ids[static_cast<std::size_t>(n)]);
   const GlobalOrder owned(mesh_->comm, ids, mesh_->global_nodes);
-  for (const auto& [field, values] : owned_state()) file.array(name() + "." + field, owned, *values, 1);
+  // A scene that restarts with other loads or another stepper books what it has not met before from zero on.
+  for (const auto& [field, values] : owned_state())
+    if (!field.starts_with("supplied_") || file.has(name() + "." + field))
+      file.array(name() + "." + field, owned, *values, 1);
   const GlobalOrder all(mesh_->comm, mesh_->node_ids, mesh_->global_nodes);
   file.array(name() + ".displacement", all, displacement_, 3);
   file.array(name() + ".last_increment", all, increment_, 1);
   last_dt_ = file.scalar(name() + ".last_dt");
+  next_step_ = file.scalar(name() + ".next_step");
+  multigrid_chosen_ =
+      options_.preconditioner != ThermalPreconditioner::jacobi && file.integer(name() + ".multigrid") != 0;
+  multigrid_factor_ = file.scalar(name() + ".multigrid_factor");
+  loaded_stale_ = file.integer(name() + ".multigrid_stale") != 0;
   loaded_ = true;
 }
 
@@ -136,7 +157,12 @@ std::int64_t Thermal::memory() const {
                                        &residual_, &diagonal_, &inverse_diagonal_})
     values += v->size();
   for (const std::vector<double>& v : supplied_) values += v.size();
-  return static_cast<std::int64_t>(values * sizeof(double)) + matrix_.memory() + solver_.memory();
+  for (const std::vector<double>& v : pending_) values += v.size();
+  for (const std::vector<double>* v :
+       {&rate_, &first_rate_, &mid_rate_, &target_, &start_rise_, &start_energy_, &given_, &received_})
+    values += v->size();
+  return static_cast<std::int64_t>(values * sizeof(double)) + matrix_.memory() + solver_.memory() + content_.memory() +
+         (multigrid_ ? multigrid_->memory() : 0);
 }
 
 }  // namespace tenon

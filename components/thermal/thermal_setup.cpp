@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "components/thermal/thermal.hpp"
 #include "framework/mesh/shape_functions.hpp"
@@ -36,15 +35,50 @@ void Thermal::find_blocks() {
   }
 }
 
+void Thermal::check_stepper() const {
+  const auto refuse = [this](const char* what) {
+    throw Error(ExitCode::usage, fmt::format("component '{}': {}", name(), what));
+  };
+  const bool theta_method =
+      options_.stepper == ThermalStepper::backward_euler || options_.stepper == ThermalStepper::crank_nicolson;
+  if (theta_method && !options_.fixed_step) refuse("this implicit stepper needs time_step.fixed");
+  if (is_explicit() && is_nonlinear())
+    refuse(
+        "the explicit stepper knows no properties over temperature, change of phase or radiation; choose `stepper: "
+        "tr_bdf2`");
+  if (is_steady() && options_.prescribed.empty() && options_.convection.empty() && options_.radiation.empty())
+    refuse("nothing determines the steady temperature; prescribe one, or add convection or radiation");
+}
+
+// Enthalpy of the nodes: mass of each block at each of them.
+thermal::HeatContent Thermal::make_content(const std::vector<std::map<LocalIndex, double>>& masses) const {
+  std::vector<thermal::Enthalpy> enthalpies;
+  for (const std::size_t b : block_options_) {
+    const ThermalBlock& m = options_.blocks[b];
+    enthalpies.push_back({m.specific_heat_over_temperature.value_or(TemperatureTable(m.specific_heat)), m.latent_heat,
+                          m.solidus, m.liquidus});
+  }
+  std::vector<LocalIndex> offsets{0};
+  std::vector<thermal::HeatContent::Share> shares;
+  for (const std::map<LocalIndex, double>& row : masses) {
+    for (const auto& [block, mass] : row) shares.push_back({block, mass});
+    offsets.push_back(static_cast<LocalIndex>(shares.size()));
+  }
+  return {std::move(enthalpies), std::move(offsets), std::move(shares)};
+}
+
 // Elements add to their nodes in ascending order. Capacity is that of the reference configuration: mass is kept.
 void Thermal::make_capacity() {
   std::array<Vec3, max_element_nodes> corners;
   std::array<double, max_element_nodes> volumes{};
   std::vector<std::array<double, max_element_nodes>> of_elements;
+  const bool linear = std::ranges::all_of(
+      options_.blocks, [](const ThermalBlock& m) { return !m.specific_heat_over_temperature && m.latent_heat == 0; });
+  std::vector<std::map<LocalIndex, double>> masses(linear ? 0 : capacity_.size());
   for (std::size_t b = 0; b < mesh_->blocks.size(); ++b) {
     const ElementBlock& block = mesh_->blocks[b];
     const ThermalBlock& material = options_.blocks[block_options_[b]];
-    const double per_volume = material.density * material.specific_heat;
+    const double per_volume = material.density * material.specific_heat;  // without a table
     for (LocalIndex e = 0; e < block.size(); ++e) {
       const auto nodes = block.nodes(e);
       for (std::size_t a = 0; a < nodes.size(); ++a) corners[a] = coordinates_[static_cast<std::size_t>(nodes[a])];
@@ -57,17 +91,21 @@ void Thermal::make_capacity() {
         if (row == no_index) continue;
         volume_[static_cast<std::size_t>(row)] += volumes[a];
         capacity_[static_cast<std::size_t>(row)] += mine[a];
+        if (!linear) masses[static_cast<std::size_t>(row)][static_cast<LocalIndex>(b)] += material.density * volumes[a];
       }
       if (is_explicit()) of_elements.push_back(mine);
     }
   }
-  matrix_.bound_with(std::move(of_elements));
+  if (is_explicit()) matrix_.bound_with(std::move(of_elements));
+  if (!linear) content_ = make_content(masses);
 }
 
 void Thermal::make_loads() {
   for (const SurfaceFlux& f : options_.fluxes) flux_loads_.push_back({thermal::Surface(*mesh_, f.side_set), f.flux});
   for (const Convection& c : options_.convection)
     convection_loads_.push_back({thermal::Surface(*mesh_, c.side_set), c.coefficient, c.ambient});
+  for (const Radiation& r : options_.radiation)
+    radiation_loads_.push_back({thermal::Surface(*mesh_, r.side_set), r.emissivity, r.ambient});
   std::array<Vec3, max_element_nodes> corners;
   std::array<double, max_element_nodes> volumes{};
   for (const HeatSource& s : options_.sources) {
@@ -90,8 +128,13 @@ void Thermal::make_loads() {
       load.volumes.push_back(volume);
     }
   }
-  booked_ = {true, !flux_loads_.empty(), !convection_loads_.empty(), !source_loads_.empty() || options_.source_function,
-             !options_.prescribed.empty()};
+  booked_ = {true,
+             !flux_loads_.empty(),
+             !convection_loads_.empty(),
+             !source_loads_.empty() || options_.source_function,
+             !options_.prescribed.empty(),
+             !radiation_loads_.empty(),
+             is_steady()};
   for (std::size_t kind = 0; kind < supplies; ++kind)
     if (booked_[kind]) supplied_[kind].assign(capacity_.size(), 0.0);
 }
@@ -141,6 +184,7 @@ void Thermal::initialize() {
   if (!loaded_) set_initial_temperatures();
   show_temperatures();
   assemble();
+  if (loaded_) multigrid_stale_ = loaded_stale_;
   prepare_solution();
   check_fixed_step();
 }

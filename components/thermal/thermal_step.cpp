@@ -12,24 +12,30 @@ namespace tenon {
 
 void Thermal::advance(double dt) {
   refresh_geometry();
+  if (goes_by_stages())
+    advance_by_stages(dt);
+  else
+    advance_at_once(dt);
+  throw_if_not_finite();
+  if (!assembled_) ++skipped_assemblies_;
+  assembled_ = false;
+  element_steps_ += owned_elements_;
+  last_dt_ = dt;
+  set_time(time() + dt);
+}
+
+// The theta method with constant coefficients.
+void Thermal::advance_at_once(double dt) {
   gather_loads({time(), time() + dt, theta()}, dt);
   hold_prescribed(time() + dt);
   if (is_explicit())
     solve_explicit();
   else
     solve_implicit(dt);
-  {
-    const ScopedTimer timer(*update_time_);
-    book_reactions(dt);
-    apply_increment();
-    show_temperatures();
-    throw_if_not_finite();
-  }
-  if (!assembled_) ++skipped_assemblies_;
-  assembled_ = false;
-  element_steps_ += owned_elements_;
-  last_dt_ = dt;
-  set_time(time() + dt);
+  const ScopedTimer timer(*update_time_);
+  book_reactions(dt);
+  apply_increment();
+  show_temperatures();
 }
 
 // Energy (J) that the step brings to each node, as far as it is known before the new temperature.
@@ -112,16 +118,7 @@ void Thermal::solve_implicit(double dt) {
   if (last_dt_ > 0 && last_dt_ != dt)  // the first guess: the change goes on as in the last step
     for (std::size_t k = 0; k < diagonal_.size(); ++k)
       if (inverse_diagonal_[k] > 0) increment_[static_cast<std::size_t>(mesh_->owned_nodes[k])] *= dt / last_dt_;
-  last_solve_ = solver_.solve({matrix_, factor, diagonal_, inverse_diagonal_}, right_side_, increment_, residual_,
-                              options_.tolerance, options_.max_iterations, nullptr);
-  solver_iterations_ += last_solve_.iterations;
-  if (!last_solve_.converged)
-    throw Error(
-        ExitCode::unstable,
-        fmt::format("component '{}' at time {:.6g} s: conjugate gradients stopped after {} iterations at a relative "
-                    "residual of {:.3g}, expected {:.3g}; take a smaller time step or a greater "
-                    "solver.tolerance",
-                    name(), time(), last_solve_.iterations, last_solve_.residual, options_.tolerance));
+  solve_linear({matrix_, factor, diagonal_, inverse_diagonal_}, right_side_, options_.tolerance);
 }
 
 void Thermal::book_reactions(double dt) {

@@ -30,7 +30,7 @@ struct Problem {
   double factor = 0;
 
   explicit Problem(int cells) : mesh(make_mesh(cells)), matrix(*mesh, {1.0}) {
-    matrix.assemble(mesh->coordinates);
+    matrix.assemble(mesh->coordinates, {});
     matrix.finish();
     capacity.assign(mesh->owned_nodes.size(), 0.0);
     std::array<Vec3, 4> corners;

@@ -74,7 +74,7 @@ inline void write_sample_run(const Communicator& comm, const std::string& folder
   History history(comm, folder + "/history.csv",
                   {"time", "step", "dt", "kinetic_energy", "internal_energy", "hourglass_energy", "viscosity_energy",
                    "wall_work", "plastic_work", "thermal_energy", "energy_error", "max_eqps", "max_von_mises",
-                   "max_temperature", "max_displacement", "temperature_max", "temperature_min"},
+                   "max_temperature", "max_displacement", "heat.max_temperature", "min_temperature"},
                   -1);
   std::vector<Vec3> at_hexes(hexes.coordinates.size()), at_tets(tets.coordinates.size());
   std::vector<double> eqps(hexes.blocks[0].ids.size()), von_mises(eqps.size()), displacement(3 * at_hexes.size()),

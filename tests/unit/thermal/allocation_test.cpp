@@ -2,26 +2,8 @@
 // A steady step allocates nothing, with or without motion.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <new>
-
+#include "allocation_counter.hpp"
 #include "thermal_case.hpp"
-
-namespace {
-std::int64_t allocations = 0;
-}
-
-void* operator new(std::size_t bytes) {
-  ++allocations;
-  if (void* p = std::malloc(bytes)) return p;
-  throw std::bad_alloc();
-}
-void operator delete(void* p) noexcept {
-  std::free(p);
-}
-void operator delete(void* p, std::size_t) noexcept {
-  std::free(p);
-}
 
 namespace tenon::testing {
 namespace {
@@ -41,9 +23,9 @@ TEST(Thermal, SteadyStepsAllocateNothing) {
       thermal.advance(thermal.time_step());
     };
     for (int i = 0; i < 2; ++i) move();  // exchange buffers grow once
-    const std::int64_t before = allocations;
+    const std::int64_t before = allocations();
     for (int i = 0; i < 3; ++i) move();
-    EXPECT_EQ(allocations - before, 0) << static_cast<int>(stepper);
+    EXPECT_EQ(allocations() - before, 0) << static_cast<int>(stepper);
   }
 }
 

@@ -18,8 +18,8 @@ Read read(const std::string& text) {
   mesh.blocks = {{"bar", 1, 10, ElementKind::tet4}, {"foot", 2, 5, ElementKind::hex8}};
   mesh.node_sets = {{"top", 1, 3}, {"bottom", 2, 3}};
   mesh.side_sets = {{"skin", 1, 9}};
-  MaterialDescription copper{"copper", 8960, {}, {}, ThermalProperties{386, 383, 300, 0.9}};
-  MaterialDescription wood{"wood", 500, {}, {}, {}};
+  MaterialDescription copper{"copper", 8960, {}, {}, ThermalProperties{386, 383, 300, 0.9}, {}};
+  MaterialDescription wood{"wood", 500, {}, {}, {}, {}};
   Read result;
   const scene::Value value = parse_scene(text, "scene.yaml", {}, thermal_schema(), result.diagnostics);
   if (!result.diagnostics.any())
