@@ -2,9 +2,11 @@
 // What each command of `tenon` does, free of the command line's syntax.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
+#include "apps/tenon/study_plan.hpp"
 #include "framework/base/error.hpp"
 #include "framework/comm/communicator.hpp"
 
@@ -17,8 +19,23 @@ struct RunArguments {
   std::string restart;                ///< empty, a file, or "latest"
 };
 
+class Simulation;
+
+/// What a study looks at in each of its runs; all collective.
+struct RunHooks {
+  /// When the outputs have begun, before the first step.
+  std::function<void(Simulation&)> started;
+  /// After the last step; seconds of set-up, and of stepping without output (greatest of the ranks).
+  std::function<void(Simulation&, double set_up, double stepping)> finished;
+  bool to_terminal = true;  ///< the log; it always goes to log.txt
+  bool frames = true;
+};
+
 /// Collective. Runs a scene; ExitCode::done or ExitCode::stopped. Throws Error.
-ExitCode run_scene(const Communicator& comm, const RunArguments& arguments);
+ExitCode run_scene(const Communicator& comm, const RunArguments& arguments, const RunHooks& hooks = {});
+/// Collective. Runs a scene once for each of several values; writes study.csv and study.png. Runs that fail are
+/// recorded and the rest goes on: then the exit code is that of the first failure. Throws Error.
+ExitCode study_scene(const Communicator& comm, const StudyArguments& arguments);
 /// Collective. Everything that can be refused without running. Throws Error.
 void check_scene(const Communicator& comm, const RunArguments& arguments);
 /// Collective. Prints sizes, time step and its limit, steps, predicted seconds and memory, and what will be skipped.

@@ -33,11 +33,16 @@ std::string read_text(const std::string& path) {
 
 }  // namespace
 
-LoadedScene load_scene(const Communicator& comm, const std::string& path,
-                       const std::vector<scene::Override>& overrides) {
+std::string read_scene_text(const Communicator& comm, const std::string& path) {
   std::string text;
   comm.vote_on_root([&] { text = read_text(path); });
   comm.broadcast(text);
+  return text;
+}
+
+LoadedScene load_scene(const Communicator& comm, const std::string& path,
+                       const std::vector<scene::Override>& overrides) {
+  const std::string text = read_scene_text(comm, path);
   scene::Diagnostics diagnostics;
   const scene::Value value = scene::parse_scene(text, path, overrides, scene_schema(), diagnostics);
   diagnostics.throw_if_any();

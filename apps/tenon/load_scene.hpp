@@ -16,6 +16,9 @@ struct LoadedScene {
   scene::Value value;
 };
 
+/// Collective. The text of a scene or study, the same on every rank. Throws Error(usage) if it cannot be read.
+std::string read_scene_text(const Communicator& comm, const std::string& path);
+
 /// Collective. Rank 0 reads the file, all ranks parse the same text. Throws Error(file) if it cannot be read and
 /// Error(usage) with every complaint of the schema.
 LoadedScene load_scene(const Communicator& comm, const std::string& path,

@@ -13,6 +13,7 @@ namespace tenon {
 namespace {
 
 namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
 
 std::string results_folder(const RunArguments& arguments) {
   if (!arguments.folder.empty()) return arguments.folder;
@@ -55,8 +56,9 @@ void prepare_folder(const Communicator& comm, const std::string& folder, const s
   });
 }
 
-void add_observers(Simulation& simulation, const OutputPlan& plan, const std::string& folder, HistoryOutput*& history) {
-  simulation.add(std::make_unique<FrameOutput>(FrameOptions{folder, plan.frames, plan.frame_fields}));
+void add_observers(Simulation& simulation, const OutputPlan& plan, const std::string& folder, bool frames,
+                   HistoryOutput*& history) {
+  if (frames) simulation.add(std::make_unique<FrameOutput>(FrameOptions{folder, plan.frames, plan.frame_fields}));
   history = static_cast<HistoryOutput*>(&simulation.add(
       std::make_unique<HistoryOutput>(HistoryOptions{folder + "/history.csv", plan.history, plan.points})));
   simulation.add(std::make_unique<CheckpointOutput>(CheckpointOptions{folder, plan.checkpoint}));
@@ -71,6 +73,28 @@ void print_transfers(Simulation& simulation) {
   }
 }
 
+double seconds_since(Clock::time_point began) {
+  return std::chrono::duration<double>(Clock::now() - began).count();
+}
+
+double output_seconds(Simulation& simulation) {
+  double seconds = 0;
+  for (const PhaseTimer& phase : simulation.timers().phases())
+    if (phase.name.rfind("output: ", 0) == 0) seconds += phase.seconds;
+  return seconds;
+}
+
+void step_to_the_end(Simulation& simulation, const RunHooks& hooks, Clock::time_point began) {
+  simulation.start();
+  if (hooks.started) hooks.started(simulation);
+  const double set_up = seconds_since(began), before = output_seconds(simulation);
+  const Clock::time_point first_step = Clock::now();
+  simulation.run();
+  if (simulation.stopped() || !hooks.finished) return;
+  const double stepping = seconds_since(first_step) - (output_seconds(simulation) - before);
+  hooks.finished(simulation, simulation.comm().max(set_up), simulation.comm().max(stepping));
+}
+
 void print_results(Log& log, const std::string& folder, bool stopped) {
   log.print("\nresults in {0}: all.pvd (ParaView), history.csv, summary.json, {1}", folder,
             stopped ? "checkpoint" : "final.h5");
@@ -82,9 +106,9 @@ void print_results(Log& log, const std::string& folder, bool stopped) {
 
 }  // namespace
 
-ExitCode run_scene(const Communicator& comm, const RunArguments& arguments) {
-  const auto began = std::chrono::steady_clock::now();
-  Log log(comm.rank() == 0);
+ExitCode run_scene(const Communicator& comm, const RunArguments& arguments, const RunHooks& hooks) {
+  const Clock::time_point began = Clock::now();
+  Log log(comm.rank() == 0, hooks.to_terminal);
   const LoadedScene scene = load_scene(comm, arguments.scene, parse_overrides(arguments.settings));
   log.print("{}\n{} on {} ranks", version_text(), scene.title, comm.size());
   BuiltScene built = build_simulation(comm, log, scene);
@@ -99,7 +123,7 @@ ExitCode run_scene(const Communicator& comm, const RunArguments& arguments) {
   StopRequest stop;
   simulation.watch(stop);
   HistoryOutput* history = nullptr;
-  add_observers(simulation, built.output, folder, history);
+  add_observers(simulation, built.output, folder, hooks.frames, history);
   simulation.initialize(reader.get());
   const bool restarted = reader != nullptr;
   reader.reset();
@@ -107,10 +131,10 @@ ExitCode run_scene(const Communicator& comm, const RunArguments& arguments) {
   prepare_folder(comm, folder, checkpoint);
   comm.vote([&] { log.open(folder + "/log.txt", restarted); });
   print_warnings(log, built);
-  simulation.run();
+  step_to_the_end(simulation, hooks, began);
 
   print_transfers(simulation);
-  const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  const double wall = seconds_since(began);
   RunFacts facts{scene.title,
                  scene.path,
                  version_text(),

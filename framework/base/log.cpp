@@ -13,8 +13,10 @@ void Log::open(const std::string& path, bool append) {
 
 void Log::line(std::string_view text) {
   if (!speaks_) return;
-  fmt::print("{}\n", text);
-  std::fflush(stdout);
+  if (to_terminal_) {
+    fmt::print("{}\n", text);
+    std::fflush(stdout);
+  }
   if (!file_) return;
   fmt::print(file_.get(), "{}\n", text);
   std::fflush(file_.get());

@@ -13,8 +13,8 @@ namespace tenon {
 
 class Log {
  public:
-  /// A log that writes only where `speaks` is true (rank 0).
-  explicit Log(bool speaks) : speaks_(speaks) {}
+  /// A log that writes only where `speaks` is true (rank 0); to its file alone if not `to_terminal`.
+  explicit Log(bool speaks, bool to_terminal = true) : speaks_(speaks), to_terminal_(to_terminal) {}
 
   /// Also write to this file from now on; appends when `append`. Throws Error(file).
   void open(const std::string& path, bool append);
@@ -30,7 +30,7 @@ class Log {
   struct Closer {
     void operator()(std::FILE* f) const { std::fclose(f); }
   };
-  bool speaks_;
+  bool speaks_, to_terminal_;
   std::unique_ptr<std::FILE, Closer> file_;
 };
 

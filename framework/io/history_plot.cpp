@@ -21,6 +21,7 @@
 #include <vtkTable.h>
 #include <vtkTextProperty.h>
 
+#include "framework/io/chart_style.hpp"
 #include "framework/io/color_map.hpp"
 #include "framework/io/history_table.hpp"
 #include "framework/io/picture_window.hpp"
@@ -29,9 +30,6 @@ namespace tenon {
 
 namespace {
 
-// Colours that stay apart for the colour-blind (Okabe and Ito, "Color Universal Design", 2008), darkest first.
-constexpr unsigned line_colors[] = {0x0072b2, 0xd55e00, 0x009e73, 0xcc79a7, 0xe69f00,
-                                    0x56b4e9, 0x222222, 0x8c6d31, 0x7f7f7f};
 constexpr int line_types[] = {vtkPen::DASH_LINE, vtkPen::DASH_DOT_LINE, vtkPen::DOT_LINE, vtkPen::DASH_DOT_DOT_LINE};
 constexpr std::size_t most_points = 4000;    // per line; more than any picture has pixels
 constexpr double least_shown_error = 1e-17;  // zero has no place on a logarithmic axis
@@ -73,15 +71,6 @@ vtkSmartPointer<vtkTable> make_table(const HistoryTable& table, const PlotGroup&
   add(static_cast<std::size_t>(table.find("time")), scales.time.scale, false);
   for (const int c : group.columns) add(static_cast<std::size_t>(c), scales.value.scale, group.logarithmic);
   return data;
-}
-
-void style_axis(vtkAxis& axis, const std::string& title, int font) {
-  axis.SetTitle(title);
-  set_ink(*axis.GetTitleProperties(), font, false);
-  set_ink(*axis.GetLabelProperties(), font - 2, false);
-  axis.GetPen()->SetColor(60, 60, 64, 255);
-  axis.GetPen()->SetWidth(1.2F);
-  axis.GetGridPen()->SetColor(225, 225, 228, 255);
 }
 
 void set_range(vtkAxis& axis, vtkTable& data, bool logarithmic) {
@@ -152,9 +141,7 @@ void add_chart(vtkContextScene& scene, const HistoryTable& table, const PlotGrou
   for (std::size_t i = 0; i < group.columns.size(); ++i) {
     vtkPlot* const line = chart->AddPlot(vtkChart::LINE);
     line->SetInputData(data, 0, static_cast<vtkIdType>(i + 1));
-    const unsigned color = line_colors[i % std::size(line_colors)];
-    line->SetColor(static_cast<unsigned char>(color >> 16), static_cast<unsigned char>(color >> 8),
-                   static_cast<unsigned char>(color), 255);
+    set_line_color(*line, i);
     // Rows of a ledger often coincide: later ones are thinner and broken, so that those below stay visible.
     line->SetWidth(group.columns.size() > 4 && i < 4 ? 3.0F : 2.2F);
     line->GetPen()->SetLineType(i < 4 ? vtkPen::SOLID_LINE : line_types[(i - 4) % std::size(line_types)]);

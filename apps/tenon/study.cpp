@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Runs the scenes of a study one after the other.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "apps/tenon/build_simulation.hpp"
+#include "apps/tenon/commands.hpp"
+#include "apps/tenon/study_picture.hpp"
+#include "apps/tenon/study_table.hpp"
+#include "framework/io/posix_file.hpp"
+
+namespace tenon {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+/// FNV-1a of a file's bytes; only told apart from another state of the same file.
+std::uint64_t digest(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::uint64_t hash = 14695981039346656037ULL;
+  for (char c; file.get(c);) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
+  return hash;
+}
+
+/// Collective. All that the result and the time of a run depend on. Equal texts mean that it need not be repeated.
+std::string identity(const Communicator& comm, const LoadedScene& scene, const StudyRun& run) {
+  Json all{{"version", version_text()}, {"ranks", comm.size()}, {"settings", run.settings}};
+  all["scene"] = read_scene_text(comm, scene.path);
+  comm.vote_on_root([&] {
+    for (const auto& [name, block] : scene.value.entries("meshes"))
+      if (block.text("type") == "file") {
+        const std::string path = (fs::path(scene.folder) / block.text("file")).string();
+        all["files"][path] = digest(path);
+      }
+  });
+  std::string text = all.dump();
+  comm.broadcast(text);
+  return text;
+}
+
+class Study {
+ public:
+  Study(const Communicator& comm, StudyPlan plan) : comm_(comm), plan_(std::move(plan)), log_(comm.rank() == 0) {
+    rows_.resize(plan_.runs.size());
+    for (StudyRow& row : rows_) row.values.resize(plan_.quantities.size());
+  }
+
+  ExitCode run() {
+    make_folder();
+    log_.print("{}\n{}: {} runs on {} ranks, in {}", version_text(), plan_.title, rows_.size(), comm_.size(),
+               plan_.folder);
+    ExitCode first_failure = ExitCode::done;
+    for (std::size_t r = 0; r < rows_.size(); ++r) {
+      const ExitCode code = one(r);
+      if (code == ExitCode::stopped) return code;
+      if (first_failure == ExitCode::done) first_failure = code;
+      write_table();
+    }
+    finish();
+    return first_failure;
+  }
+
+ private:
+  std::string folder(std::size_t r) const { return plan_.folder + "/" + plan_.runs[r].folder; }
+
+  void make_folder() {
+    comm_.vote_on_root([&] {
+      std::error_code problem;
+      fs::create_directories(plan_.folder, problem);
+      if (problem)
+        throw Error(ExitCode::file,
+                    plan_.folder + ": cannot be made: " + problem.message() + "; choose another with -o");
+    });
+  }
+
+  /// One run, whose failure is kept in its row. Mistakes in the study itself end it.
+  ExitCode one(std::size_t r) {
+    StudyRow& row = rows_[r];
+    const std::string name = plan_.runs[r].folder;
+    log_.print("run {} of {}: {}", r + 1, rows_.size(), name);
+    try {
+      const LoadedScene scene = load_scene(comm_, plan_.scene, parse_overrides(plan_.runs[r].settings));
+      const std::string wanted = identity(comm_, scene, plan_.runs[r]);
+      const bool again = reuse(r, scene, wanted);
+      if (!again && execute(r, wanted) == ExitCode::stopped) {
+        log_.print("stopped on request; the same command goes on with run {}", r + 1);
+        return ExitCode::stopped;
+      }
+      measure_columns(r);
+      row.done = true;
+      row.status = "done";
+      tell(r, again);
+      return ExitCode::done;
+    } catch (const Error& error) {
+      row.status = error.what();
+      if (mistaken_) throw;
+      log_.print("  failed (exit code {}): {}", static_cast<int>(error.code()), row.status);
+      return error.code();
+    }
+  }
+
+  ExitCode execute(std::size_t r, const std::string& wanted) {
+    RunArguments arguments{plan_.scene, folder(r), plan_.runs[r].settings, ""};
+    RunHooks hooks;
+    hooks.to_terminal = false;
+    hooks.frames = plan_.frames;
+    comm_.vote_on_root([&] { fs::remove(record(r)); });
+    hooks.started = [&](Simulation& simulation) {
+      mistaken_ = true;
+      check_fields(plan_, simulation);
+      check_columns(comm_, plan_, folder(r) + "/history.csv");
+      mistaken_ = false;
+    };
+    hooks.finished = [&](Simulation& simulation, double set_up, double stepping) {
+      StudyRow& row = rows_[r];
+      row.set_up = set_up, row.seconds = stepping;
+      row.steps = static_cast<double>(simulation.steps());
+      std::int64_t work = 0;
+      for (const auto& component : simulation.components()) work += comm_.sum(component->work_done());
+      row.work = static_cast<double>(work);
+      row.size = size_of(r, mean_element_size(simulation));
+      measure_fields(r, simulation);
+    };
+    const ExitCode code = run_scene(comm_.duplicate(), arguments, hooks);
+    if (code == ExitCode::done) keep(r, wanted);
+    return code;
+  }
+
+  std::string record(std::size_t r) const { return folder(r) + "/run.json"; }
+
+  void keep(std::size_t r, const std::string& wanted) {
+    comm_.vote_on_root([&] {
+      const StudyRow& row = rows_[r];
+      const Json record_of_run{{"identity", wanted},
+                               {"set_up_seconds", row.set_up},
+                               {"seconds", row.seconds},
+                               {"steps", row.steps},
+                               {"element_steps", row.work}};
+      write_and_rename(record(r), record_of_run.dump(1) + "\n");
+    });
+  }
+
+  /// Collective. Whether the run was done before; its times are then those of its record, and its fields are measured
+  /// in its final state.
+  bool reuse(std::size_t r, const LoadedScene& scene, const std::string& wanted) {
+    StudyRow& row = rows_[r];
+    std::vector<double> kept;
+    if (comm_.rank() == 0 && fs::exists(record(r)) && fs::exists(folder(r) + "/final.h5")) {
+      std::ifstream file(record(r));
+      const Json old = Json::parse(file, nullptr, false);
+      if (old.is_object() && old.value("identity", "") == wanted)
+        kept = {old.value("set_up_seconds", unknown), old.value("seconds", unknown), old.value("steps", 0.0),
+                old.value("element_steps", 0.0)};
+    }
+    comm_.broadcast(kept);
+    if (kept.empty()) return false;
+    row.set_up = kept[0], row.seconds = kept[1], row.steps = kept[2], row.work = kept[3];
+    Log silent(false);
+    const Communicator own = comm_.duplicate();
+    BuiltScene built = build_simulation(own, silent, scene);
+    const CheckpointReader reader(own, folder(r) + "/final.h5");
+    built.simulation->initialize(&reader);
+    mistaken_ = true;
+    check_fields(plan_, *built.simulation);
+    check_columns(comm_, plan_, folder(r) + "/history.csv");
+    mistaken_ = false;
+    row.size = size_of(r, mean_element_size(*built.simulation));
+    measure_fields(r, *built.simulation);
+    return true;
+  }
+
+  std::vector<double> numbers(std::size_t r) const {
+    std::vector<double> values;
+    for (const std::string& value : plan_.runs[r].values) values.push_back(as_number(value));
+    return values;
+  }
+
+  double size_of(std::size_t r, double mean) const { return plan_.size ? (*plan_.size)(numbers(r)) : mean; }
+
+  void measure_fields(std::size_t r, const Simulation& simulation) {
+    for (std::size_t q = 0; q < plan_.quantities.size(); ++q)
+      if (plan_.quantities[q].is_field) rows_[r].values[q] = measure_field(simulation, plan_.quantities[q]);
+  }
+  void measure_columns(std::size_t r) {
+    for (std::size_t q = 0; q < plan_.quantities.size(); ++q)
+      if (!plan_.quantities[q].is_field)
+        rows_[r].values[q] = measure_history(comm_, folder(r) + "/history.csv", plan_.quantities[q], numbers(r));
+  }
+
+  void tell(std::size_t r, bool again) {
+    const StudyRow& row = rows_[r];
+    std::string text;
+    for (std::size_t q = 0; q < plan_.quantities.size(); ++q) {
+      const Measured& m = row.values[q];
+      text += fmt::format("  {} {:.6g}", plan_.quantities[q].name, m.value);
+      if (std::isfinite(m.error)) text += fmt::format(" (error {:.3e})", m.error);
+    }
+    log_.print("  h {:.4g},{}, {:.0f} steps, {:.2f} s{}", row.size, text, row.steps, row.seconds,
+               again ? " (not repeated: its folder holds the same run)" : "");
+  }
+
+  void write_table() {
+    analyse(plan_, rows_);
+    comm_.vote_on_root([&] { write_and_rename(plan_.folder + "/study.csv", study_csv(plan_, rows_)); });
+  }
+
+  void finish() {
+    const std::vector<std::string> notes = analyse(plan_, rows_);
+    log_.line("");
+    for (const std::string& note : notes) log_.line(note);
+    for (std::size_t q = 0; q < plan_.quantities.size(); ++q) {
+      log_.print("\n{:<40} {:>12} {:>14} {:>11} {:>6} {:>10} {:>9}", plan_.quantities[q].name, "size", "value", "error",
+                 "order", "seconds", "steps");
+      for (std::size_t r = 0; r < rows_.size(); ++r) {
+        const StudyRow& row = rows_[r];
+        if (!row.done) {
+          log_.print("{:<40} failed", plan_.runs[r].folder);
+          continue;
+        }
+        const std::string order = std::isfinite(row.orders[q]) ? fmt::format("{:.2f}", row.orders[q]) : "";
+        log_.print("{:<40} {:>12.5g} {:>14.7g} {:>11.3e} {:>6} {:>10.3f} {:>9.0f}", plan_.runs[r].folder, row.size,
+                   row.values[q].value, row.values[q].error, order, row.seconds, row.steps);
+      }
+    }
+    std::string picture;
+    comm_.vote_on_root([&] { picture = draw_in_process_of_its_own(plan_.folder); });
+    log_.print("\nresults in {}: study.csv{}", plan_.folder, picture);
+  }
+
+  Communicator comm_;
+  StudyPlan plan_;
+  Log log_;
+  std::vector<StudyRow> rows_;
+  bool mistaken_ = false;  ///< while the names in the study are compared with the scene
+};
+
+}  // namespace
+
+ExitCode study_scene(const Communicator& comm, const StudyArguments& arguments) {
+  return Study(comm, load_study(comm, arguments)).run();
+}
+
+}  // namespace tenon
