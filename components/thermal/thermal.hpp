@@ -53,6 +53,7 @@ class Thermal : public Component {
   double stable_limit();
   /// Of the last implicit step.
   const thermal::SolveReport& last_solve() const { return last_solve_; }
+  bool uses_multigrid() const { return multigrid_chosen_; }
   std::int64_t solver_iterations() const { return solver_iterations_; }
   /// Newton's iterations (each with one linear solve) since the start, and TR-BDF2 steps that were taken and repeated.
   std::int64_t newton_iterations() const { return newton_iterations_; }

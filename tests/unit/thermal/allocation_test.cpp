@@ -9,8 +9,8 @@ namespace tenon::testing {
 namespace {
 
 TEST(Thermal, SteadyStepsAllocateNothing) {
-  for (const ThermalStepper stepper :
-       {ThermalStepper::explicit_euler, ThermalStepper::backward_euler, ThermalStepper::crank_nicolson}) {
+  for (const ThermalStepper stepper : {ThermalStepper::explicit_euler, ThermalStepper::backward_euler,
+                                       ThermalStepper::crank_nicolson, ThermalStepper::tr_bdf2}) {
     Thermal thermal("heat", distributed(cube(4, true)), all_loads(stepper));
     thermal.initialize();
     const ImportPort displacement = import_port(thermal, "displacement"), heat = import_port(thermal, "heat");
@@ -20,7 +20,7 @@ TEST(Thermal, SteadyStepsAllocateNothing) {
       for (double& v : u) v += 1e-6;
       displacement.write(u);
       heat.write(q);
-      thermal.advance(thermal.time_step());
+      thermal.advance(std::min(thermal.time_step(), 40.0));
     };
     for (int i = 0; i < 2; ++i) move();  // exchange buffers grow once
     const std::int64_t before = allocations();

@@ -17,7 +17,7 @@ TEST_P(Balanced, InEveryStep) {
   thermal.initialize();
   for (int step = 0; step < 8; ++step) {
     if (step % 3 == 1) disturb(thermal, 0.01 * step / 8);
-    thermal.advance(thermal.time_step());
+    thermal.advance(std::min(thermal.time_step(), 40.0));
     EXPECT_LT(balance(thermal).error(), 1e-13) << step;
   }
   for (const char* row : {"transferred_heat", "flux_heat", "convection_heat", "source_heat", "prescribed_heat"})
@@ -27,8 +27,26 @@ TEST_P(Balanced, InEveryStep) {
 INSTANTIATE_TEST_SUITE_P(Steppers, Balanced,
                          ::testing::Combine(::testing::Values(ThermalStepper::explicit_euler,
                                                               ThermalStepper::backward_euler,
-                                                              ThermalStepper::crank_nicolson),
+                                                              ThermalStepper::crank_nicolson, ThermalStepper::tr_bdf2,
+                                                              ThermalStepper::steady),
                                             ::testing::Bool(), ::testing::Values(1e-12, 1e-3)));
+
+class BalancedNonlinear : public ::testing::TestWithParam<ThermalStepper> {};
+
+TEST_P(BalancedNonlinear, InEveryStep) {
+  Thermal thermal("heat", distributed(cube(4, true, 0.15)), all_loads_warm(GetParam()));
+  thermal.initialize();
+  for (int step = 0; step < 6; ++step) {
+    if (step % 3 == 1) disturb(thermal, 0.01 * step / 8);
+    thermal.advance(std::min(thermal.time_step(), 40.0));
+    EXPECT_LT(balance(thermal).error(), 1e-12) << step;
+  }
+  EXPECT_GT(std::abs(energy(thermal, "radiation_heat")), 1e-3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Steppers, BalancedNonlinear,
+                         ::testing::Values(ThermalStepper::backward_euler, ThermalStepper::crank_nicolson,
+                                           ThermalStepper::tr_bdf2, ThermalStepper::steady));
 
 TEST(Thermal, TransferredHeatIsStoredAtOnceAndWarmsInTheNextStep) {
   ThermalOptions options;

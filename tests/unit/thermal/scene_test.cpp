@@ -66,6 +66,28 @@ sources:
   EXPECT_EQ(o.sources.at(0).power(3), 1e6);
 }
 
+TEST(ThermalScene, ReadsTheAdaptiveStepperAndRadiation) {
+  const Read r = read(R"(
+mesh: fine
+material: copper
+stepper: tr_bdf2
+time_step: {tolerance: 0.5 K, initial: 1 ms, maximum: 10 s}
+solver: {preconditioner: multigrid, nonlinear_tolerance: 1e-6}
+radiation:
+  - {side_set: skin, emissivity: 0.8, ambient: 20 degC}
+)");
+  ASSERT_FALSE(r.diagnostics.any()) << r.diagnostics.errors().front();
+  EXPECT_EQ(r.options.stepper, ThermalStepper::tr_bdf2);
+  EXPECT_FALSE(r.options.fixed_step);
+  EXPECT_EQ(r.options.control.tolerance, 0.5);
+  EXPECT_EQ(r.options.control.initial, 1e-3);
+  EXPECT_EQ(r.options.control.maximum, 10.0);
+  EXPECT_EQ(r.options.preconditioner, ThermalPreconditioner::multigrid);
+  EXPECT_EQ(r.options.nonlinear_tolerance, 1e-6);
+  ASSERT_EQ(r.options.radiation.size(), 1u);
+  EXPECT_NEAR(r.options.radiation[0].ambient(0), 293.15, 1e-9);
+}
+
 TEST(ThermalScene, ExplicitNeedsNoStep) {
   const Read r = read("mesh: fine\nblocks: {bar: {material: copper}, foot: {material: copper}}\n");
   ASSERT_FALSE(r.diagnostics.any()) << r.diagnostics.errors().front();
@@ -91,6 +113,10 @@ TEST(ThermalScene, RefusesUnknownNamesWithTheNearest) {
 
 TEST(ThermalScene, RefusesWhatMakesNoSense) {
   expect_refused("material: copper\nstepper: backward_euler\n", "needs a step");
+  expect_refused("material: copper\nstepper: steady\n", "nothing determines");
+  expect_refused("material: copper\nradiation: [{side_set: skin, emissivity: 0.8, ambient: 300 K}]\n", "'explicit'");
+  expect_refused("material: copper\nstepper: tr_bdf2\nradiation: [{side_set: skin, emissivity: 2, ambient: 1 K}]\n",
+                 "emissivity");
   expect_refused("material: copper\ntime_step: {scale: 1.5}\n", "scale");
   expect_refused("material: copper\nconvection: [{side_set: skin, coefficient: -1, ambient: 1}]\n", "coefficient");
   expect_refused("material: copper\ninitial_temperature: 5 m\n", "initial_temperature");

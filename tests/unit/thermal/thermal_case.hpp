@@ -98,13 +98,24 @@ inline ThermalOptions all_loads(ThermalStepper stepper) {
   ThermalOptions options;
   options.blocks = {{"box", 8960, 383, 386, 300}};
   options.stepper = stepper;
-  if (stepper != ThermalStepper::explicit_euler) options.fixed_step = 40;
+  if (stepper == ThermalStepper::backward_euler || stepper == ThermalStepper::crank_nicolson) options.fixed_step = 40;
   options.initial = {{"", "", 293.15, {30, 0, -20}}};
   options.prescribed = {{"x_min", TimeFunction::sine(5, 400, 0, 350)}};
   options.fluxes = {{"x_max", TimeFunction::table({{0, 0}, {300, 2e4}})}, {"y_min", TimeFunction::constant(-100)}};
   options.convection = {{"z_max", 250, TimeFunction::sine(50, 500, 0, 280)},
                         {"y_max", 20, TimeFunction::constant(400)}};
   options.sources = {{"box", TimeFunction::constant(1e3)}};
+  return options;
+}
+
+/// The same with properties over temperature, melting in the range of temperatures, and radiation.
+inline ThermalOptions all_loads_warm(ThermalStepper stepper) {
+  ThermalOptions options = all_loads(stepper);
+  ThermalBlock& block = options.blocks.front();
+  block.conductivity_over_temperature = TemperatureTable({{280.0, 386.0}, {400.0, 300.0}});
+  block.specific_heat_over_temperature = TemperatureTable({{280.0, 383.0}, {350.0, 420.0}});
+  block.latent_heat = 2000, block.solidus = 300, block.liquidus = 301;
+  options.radiation = {{"x_max", 0.8, TimeFunction::constant(500)}};
   return options;
 }
 
