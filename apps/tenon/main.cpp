@@ -53,6 +53,7 @@ void add_study_options(CLI::App& study, tenon::StudyArguments& arguments) {
   study.add_option("--exact", arguments.exact, "Exact solution of the fields: an expression of t, x, y, z (SI)")
       ->excludes(reference);
   study.add_option("--size", arguments.size, "Size that the error belongs to, as 1/axial (default: mean element size)");
+  study.add_flag("!--no-picture", arguments.picture, "Do not draw study.png (tenon picture FOLDER does it later)");
   study.add_flag("--grid", arguments.grid, "All combinations of the values instead of keys in step");
   study
       .add_option("--set", arguments.settings,

@@ -229,7 +229,7 @@ class Study {
       }
     }
     std::string picture;
-    comm_.vote_on_root([&] { picture = draw_in_process_of_its_own(plan_.folder); });
+    if (plan_.picture) comm_.vote_on_root([&] { picture = draw_in_process_of_its_own(plan_.folder); });
     log_.print("\nresults in {}: study.csv{}", plan_.folder, picture);
   }
 

@@ -216,6 +216,7 @@ StudyPlan load_study(const Communicator& comm, const StudyArguments& arguments) 
     plan.folder = fs::path(arguments.file).stem().string() + ".study";
   plan.grid = study.flag("grid") || arguments.grid;
   plan.frames = study.flag("frames");
+  plan.picture = arguments.picture;
   plan.vary = read_variations(study, plan.grid, diagnostics);
   std::vector<std::string> names;
   for (const StudyVariation& v : plan.vary) names.push_back(v.name);

@@ -20,7 +20,7 @@ struct StudyArguments {
   std::vector<std::string> quantities;  ///< column[:take], or component.field.part if `exact` is given
   std::string reference, exact, size;   ///< expressions; empty: none
   std::vector<std::string> settings;    ///< key.path=value
-  bool grid = false;
+  bool grid = false, picture = true;
 };
 
 struct StudyVariation {
@@ -53,7 +53,7 @@ struct StudyRun {
 struct StudyPlan {
   std::string title, scene, folder;
   std::vector<StudyVariation> vary;
-  bool grid = false, frames = false;
+  bool grid = false, frames = false, picture = true;
   std::optional<scene::Expression> size;  ///< of the names of the variations; empty: mean element size
   std::vector<StudyQuantity> quantities;
   std::vector<StudyRun> runs;

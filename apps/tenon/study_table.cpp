@@ -87,9 +87,8 @@ std::string quoted_cell(const std::string& text) {
 Extrapolation richardson(const double (&size)[3], const double (&value)[3]) {
   Extrapolation result;
   const double coarse = value[0] - value[1], fine = value[1] - value[2];
-  if (!(size[0] > size[1] && size[1] > size[2]) || !(coarse * fine > 0) || !(std::abs(coarse) > std::abs(fine)))
-    return result;
-  // (h0^p - h1^p) / (h1^p - h2^p) grows with p; its logarithm is the order itself for a constant ratio of sizes.
+  if (!(size[0] > size[1] && size[1] > size[2]) || !(coarse * fine > 0)) return result;
+  // (h0^p - h1^p) / (h1^p - h2^p) grows with p; differences that do not shrink are below its value at p = 0.
   const double wanted = coarse / fine, r01 = size[0] / size[1], r21 = size[2] / size[1];
   const auto ratio = [&](double p) { return (std::pow(r01, p) - 1) / (1 - std::pow(r21, p)); };
   double low = 1e-3, high = 30;
