@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "components/materials/lane_math.hpp"
 
 namespace tenon {
 
@@ -21,13 +22,42 @@ double greatest_principal(const Batch<6>& s, int l) {
   return p + radius * std::cos(std::acos(cosine) / 3);
 }
 
+double mean_stress(const Batch<6>& s, int l) {
+  return (s[0][l] + s[1][l] + s[2][l]) / 3;
+}
+
+double von_mises_stress(const Batch<6>& s, int l) {
+  const double xy = s[0][l] - s[1][l], yz = s[1][l] - s[2][l], zx = s[2][l] - s[0][l];
+  const double shear = s[3][l] * s[3][l] + s[4][l] * s[4][l] + s[5][l] * s[5][l];
+  return std::sqrt(0.5 * (xy * xy + yz * yz + zx * zx) + 3 * shear);
+}
+
+/// Plastic strain at fracture under the present stress, rate and temperature.
+double fracture_strain(const JohnsonCookDamage& d, const FailureInput& input, double increment, int l) {
+  const double q = von_mises_stress(input.stress, l), mean = mean_stress(input.stress, l);
+  const double triaxiality = mean / std::max(q, 1e-12 * std::abs(mean) + 1e-300);
+  const double rate = increment / input.dt / d.reference_strain_rate;
+  const double range = d.melting_temperature - d.reference_temperature;
+  const double hot = std::clamp((input.temperature[0][l] - d.reference_temperature) / range, 0.0, 1.0);
+  const double strain =
+      (d.D1 + d.D2 * exp_of(d.D3 * triaxiality)) * (1 + d.D4 * log_of(std::max(rate, 1.0))) * (1 + d.D5 * hot);
+  return std::max(strain, JohnsonCookDamage::least);
+}
+
 }  // namespace
 
 void FailureCriterion::accumulate(const FailureInput& input, Batch<1>& damage) const {
   for (int l = 0; l < lanes; ++l) {
     double d = damage[0][l];
+    const double increment = input.eqps[0][l] - input.eqps_before[0][l];
+    if (johnson_cook && increment > 0) {
+      const double limit = fracture_strain(*johnson_cook, input, increment, l);
+      d += increment / (plastic_strain ? std::min(limit, *plastic_strain) : limit);
+    }
+    // Not summed up, so that failure comes at the very step at which the limit is reached.
     if (plastic_strain) d = std::max(d, input.eqps[0][l] / *plastic_strain);
     if (tensile_stress) d = std::max(d, greatest_principal(input.stress, l) >= *tensile_stress ? 1.0 : 0.0);
+    if (spall_pressure) d = std::max(d, mean_stress(input.stress, l) >= *spall_pressure ? 1.0 : 0.0);
     damage[0][l] = d;
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All materials: their description, and the choice that is made once per block.
+// A material as a scene describes it.
 #pragma once
 
 #include <array>
@@ -8,19 +8,13 @@
 #include <variant>
 
 #include "components/materials/elasticity.hpp"
+#include "components/materials/equation_of_state.hpp"
 #include "components/materials/failure.hpp"
-#include "components/materials/j2_linear_hardening.hpp"
-#include "components/materials/johnson_cook.hpp"
-#include "components/materials/linear_elastic.hpp"
+#include "components/materials/mechanical_law.hpp"
 #include "components/materials/temperature_table.hpp"
 #include "framework/base/types.hpp"
 
 namespace tenon {
-
-struct LinearHardeningParameters {
-  double yield_stress = 0;       ///< Pa
-  double hardening_modulus = 0;  ///< Pa
-};
 
 struct ThermalProperties {
   double conductivity = 0;                ///< W/(m K)
@@ -33,24 +27,18 @@ struct ThermalProperties {
   double latent_heat = 0, solidus = 0, liquidus = 0;            ///< J/kg, K, K; no change of phase without latent heat
 };
 
-/// A material as a scene states it. Mechanics needs `elastic`; conduction and plastic heat need `thermal`.
+/// A material as a scene states it. Mechanics needs `elastic` or `whole_law`; conduction and plastic heat need
+/// `thermal`.
 struct MaterialDescription {
   std::string name;
   double density = 0;                 ///< kg/m^3, of the reference configuration
-  std::optional<Elasticity> elastic;  ///< its `expansion` comes from the thermal block
-  std::variant<std::monostate, LinearHardeningParameters, JohnsonCookParameters> plasticity;
+  std::optional<Elasticity> elastic;  ///< its `expansion` comes from the thermal block; moduli of small strains if the
+                                      ///< law is another one
+  PlasticityParameters plasticity;
   std::optional<ThermalProperties> thermal;
   std::optional<FailureCriterion> failure;
+  WholeLawParameters whole_law{};                      ///< rubber, orthotropic, foam, soil
+  std::optional<EquationOfState> equation_of_state{};  ///< pressure in place of the elastic one
 };
-
-/// Chosen once per block or batch by std::visit, never per point.
-using AnyMaterial = std::variant<LinearElastic, J2LinearHardening, JohnsonCook>;
-
-/// Throws Error(usage) if the description has no elastic constants.
-AnyMaterial make_material(const MaterialDescription& description);
-
-/// History values per point, and the name of each.
-int state_size(const AnyMaterial& material);
-std::string state_name(const AnyMaterial& material, int i);
 
 }  // namespace tenon

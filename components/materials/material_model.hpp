@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -52,6 +53,9 @@ class MaterialModel {
 
   /// As Material::update, with the failure criterion after it.
   virtual void update(const UpdateInput& input, Batch<6>& stress, StateRows state, Batch<1>& plastic_work) const = 0;
+  /// Whether there is such a law for shells: not where the stress follows from a deformation gradient or a volume that
+  /// the strain through the thickness would change.
+  virtual bool supports_plane_stress() const = 0;
   /// The same under the condition that the stress normal to the z direction of the given frame stays zero: the strain
   /// increment zz of `input` is not read, and the one that results is given (row 0: strain over the step).
   virtual void update_plane_stress(const UpdateInput& input, Batch<6>& stress, StateRows state, Batch<1>& plastic_work,
@@ -111,6 +115,7 @@ class MaterialModelOf final : public MaterialModel {
   }
   const Elasticity& elasticity() const override { return elasticity_; }
   bool variable_stiffness() const override { return has_stiffness; }
+  bool supports_plane_stress() const override { return !needs_deformation_gradient() && !needs_volume_ratio(); }
 
   void stiffness(const UpdateInput& input, const Batch<6>& stress, const Batch<1>* state,
                  Batch<2>& moduli) const override {
@@ -135,6 +140,9 @@ class MaterialModelOf final : public MaterialModel {
                       material_.update_plane_stress(input, stress, history, plastic_work, thickness_increment);
                     })
         material_.update_plane_stress(input, stress, history, plastic_work, thickness_increment);
+      else if constexpr (
+          requires { M::needs_deformation_gradient; } || requires { M::needs_volume_ratio; })
+        throw std::logic_error("this material has no plane stress");
       else
         iterate_plane_stress(material_, input, stress, history, plastic_work, thickness_increment);
     });

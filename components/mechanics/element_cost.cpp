@@ -17,7 +17,7 @@ struct Overloaded : F... {
 double element_cost(const MaterialDescription& material) {
   return std::visit(
       Overloaded{[](std::monostate) { return 1.0; }, [](const LinearHardeningParameters&) { return 1.05; },
-                 [](const JohnsonCookParameters&) { return 1.8; }},
+                 [](const JohnsonCookParameters&) { return 1.8; }, [](const auto&) { return 1.3; }},
       material.plasticity);
 }
 

@@ -5,7 +5,9 @@
 #include <array>
 #include <cmath>
 
-#include "components/materials/material.hpp"
+#include "components/materials/j2_linear_hardening.hpp"
+#include "components/materials/johnson_cook.hpp"
+#include "components/materials/linear_elastic.hpp"
 
 namespace tenon::testing {
 
