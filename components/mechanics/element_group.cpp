@@ -35,9 +35,7 @@ void ElementGroup::add_masses(const NodalMasses& masses) const {
 
 void ElementGroup::prepare(int, const NodeArrays&, double) {}
 
-bool ElementGroup::add_product(const NodeArrays&, const double*, double, double, ForceRow*) const {
-  return false;
-}
+void ElementGroup::add_product(const NodeArrays&, const double*, double, double, ForceRow*) const {}
 
 std::vector<StateArray> ElementGroup::state() {
   std::vector<StateArray> arrays;
@@ -53,6 +51,7 @@ std::vector<StateArray> ElementGroup::state() {
   add("heat_given", heat_given);
   add("dead", dead);
   add("internal_energy", internal_energy);
+  add("verified_wave_steps", verified_wave_steps);
   return arrays;
 }
 
@@ -63,8 +62,31 @@ void ElementGroup::fill_padding() {
       for (int row = 0; row < array.rows; ++row) array.at(e, row) = array.at(size_ - 1, row);
 }
 
+void ElementGroup::follow_limit() {
+  wave_steps.resize(batches()), verified_wave_steps.resize(batches());
+}
+
+void ElementGroup::verify(double step) {
+  verified_step = step;
+  verified_wave_steps = wave_steps;
+}
+
+// An assembly is no faster than its verified state, times the factor by which the fastest growing part of it has become
+// faster. Parts that alone allow the verified step cannot exceed it.
+void ElementGroup::follow(std::size_t batch, const Batch<1>& step, const Batch<1>& wave_step, double& shrink) {
+  wave_steps[batch] = wave_step;
+  for (int l = 0; l < lanes && verified_step > 0; ++l) {
+    const double ratio = wave_step[0][l] / verified_wave_steps[batch][0][l];
+    if (step[0][l] < verified_step && ratio < shrink) shrink = ratio;
+  }
+}
+
 double ElementGroup::stress(LocalIndex element, int component) const {
   return points.mean_stress(element, component);
+}
+
+double ElementGroup::face_stress(LocalIndex element, int component, bool) const {
+  return stress(element, component);
 }
 
 double ElementGroup::history(LocalIndex element, int row) const {
@@ -72,7 +94,8 @@ double ElementGroup::history(LocalIndex element, int row) const {
 }
 
 std::int64_t ElementGroup::memory() const {
-  const std::size_t values = mass.size() * 6 + heat_given.size() + dead.size() + internal_energy.size() + steps.size();
+  const std::size_t values =
+      mass.size() * 6 + heat_given.size() + dead.size() + internal_energy.size() + steps.size() + 2 * wave_steps.size();
   return points.memory() + static_cast<std::int64_t>(values * sizeof(Batch<1>));
 }
 

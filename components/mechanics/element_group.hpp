@@ -22,10 +22,12 @@ inline constexpr double exploding_element = -2;  ///< not a number, or strained 
 /// Far above what the step before an inversion shows (about 1), so that an inversion is called one.
 inline constexpr double greatest_strain = 100;
 
-/// Least stable step of a group, or a code, and the first element that has it.
+/// Least stable step of a group, or a code, and the first element that has it. `shrink`: by how much the limit of a
+/// mesh that was verified (ElementGroup::verify) may have fallen since, from 1 downwards.
 struct GroupStep {
   double step;
   LocalIndex element;
+  double shrink = 1;
 };
 
 /// One value per element.
@@ -80,10 +82,16 @@ class ElementGroup {
   virtual GroupStep advance(const NodeArrays& nodes, double dt) = 0;
 
   /// Adds (stiffness K + damping C) u to `out` for the geometry and moduli of the last `advance`; u and `out` are nodal
-  /// vectors, u as NodeArrays hold positions. False if the formulation has no such product: then its elements bound the
-  /// stable step one by one.
-  virtual bool add_product(const NodeArrays& nodes, const double* u, double stiffness, double damping,
+  /// vectors, u as NodeArrays hold positions. Formulations without such a product bound the stable step element by
+  /// element.
+  virtual bool has_product() const { return false; }
+  virtual void add_product(const NodeArrays& nodes, const double* u, double stiffness, double damping,
                            ForceRow* out) const;
+
+  /// From now on `advance` finds how the limit of the mesh may have changed since the last `verify`. Before a restart.
+  void follow_limit();
+  /// Says that the mesh allows `step` (s) in the state of the last `advance`.
+  void verify(double step);
 
   /// Present volume of one element, m^3.
   virtual double volume(LocalIndex element, std::span<const Vec3> positions) const = 0;
@@ -103,6 +111,10 @@ class ElementGroup {
   virtual double stress(LocalIndex element, int component) const;
   /// Mean over the integration points of a row of the material's history.
   virtual double history(LocalIndex element, int row) const;
+  /// Of shells: stress at the outermost integration point of a face (top: where the normal points), Pa, and thickness,
+  /// m; of solids the mean stress and 0.
+  virtual double face_stress(LocalIndex element, int component, bool top) const;
+  virtual double thickness(LocalIndex) const { return 0; }
   bool alive(LocalIndex element) const { return dead.empty() || value_of(dead, element) == 0; }
 
   MaterialPoints points;
@@ -119,6 +131,9 @@ class ElementGroup {
   double heating = 0;
   /// Stable step of each element as of the last `advance`, s; filled only while it is not empty.
   ElementValues steps;
+  /// While the limit is followed: the step of each element among its like, s, by now and when a step was verified.
+  ElementValues wave_steps, verified_wave_steps;
+  double verified_step = 0;  ///< s; 0: none yet
 
  protected:
   std::size_t batches() const { return mass.size(); }
@@ -128,6 +143,9 @@ class ElementGroup {
   }
   /// Local node of corner i of an element; of the last element in the padding.
   LocalIndex node(LocalIndex element, int corner) const;
+  bool follows() const { return !wave_steps.empty(); }
+  /// Takes the steps of a batch, by its elements alone and among their like, into the least shrink.
+  void follow(std::size_t batch, const Batch<1>& step, const Batch<1>& wave_step, double& shrink);
 
  private:
   std::size_t block_;

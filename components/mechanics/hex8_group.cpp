@@ -49,18 +49,19 @@ GroupStep Hex8Group<H>::advance(const NodeArrays& nodes, double dt) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Batch<1> least, where;
   for (int l = 0; l < lanes; ++l) least[0][l] = infinity, where[0][l] = 0;
-  for (std::size_t b = 0; b < batches(); ++b) advance_batch(b, nodes, dt, least, where);
   GroupStep result{infinity, no_index};
+  for (std::size_t b = 0; b < batches(); ++b) advance_batch(b, nodes, dt, least, where, result.shrink);
   for (int l = 0; l < lanes && batches() > 0; ++l) {
     const LocalIndex element = std::min(static_cast<LocalIndex>(where[0][l]) * lanes + l, size() - 1);
     const bool first = least[0][l] < result.step || (least[0][l] == result.step && element < result.element);
-    if (first) result = {least[0][l], element};
+    if (first) result = {least[0][l], element, result.shrink};
   }
   return result;
 }
 
 template <HourglassForm H>
-void Hex8Group<H>::advance_batch(std::size_t b, const NodeArrays& nodes, double dt, Batch<1>& least, Batch<1>& where) {
+void Hex8Group<H>::advance_batch(std::size_t b, const NodeArrays& nodes, double dt, Batch<1>& least, Batch<1>& where,
+                                 double& shrink) {
   HexModes<Pack> x[halves], v[halves];
   for (int h = 0; h < halves; ++h) {
     x[h] = gather(nodes.position, connectivity_[b], h * pack_width);
@@ -70,9 +71,9 @@ void Hex8Group<H>::advance_batch(std::size_t b, const NodeArrays& nodes, double 
   if (dt > 0) update_material(b, nodes, x, v, dt, work);
   work.moduli = moduli_.empty() ? constant_moduli_ : moduli_[b];
   alignas(64) double rows[lanes][8][pack_width];
-  Batch<1> step;
+  Batch<1> step, wave_step;
   for (int h = 0; h < halves; ++h)
-    store(step[0] + h * pack_width, resist(b, h * pack_width, x[h], v[h], dt, work, rows + h * pack_width));
+    store(step[0] + h * pack_width, resist(b, h * pack_width, x[h], v[h], dt, work, rows + h * pack_width, wave_step));
   if (!dead.empty()) bury(b, rows, step);
   for (int h = 0; h < halves; ++h) {
     const int lane = h * pack_width;
@@ -81,6 +82,7 @@ void Hex8Group<H>::advance_batch(std::size_t b, const NodeArrays& nodes, double 
     store(where[0] + lane, now < before ? broadcast<Pack>(static_cast<double>(b)) : load(where[0] + lane));
   }
   if (!steps.empty()) steps[b] = step;
+  if (follows()) follow(b, step, wave_step, shrink);
   scatter(rows, connectivity_[b], count(b), nodes.force);
 }
 
@@ -148,15 +150,20 @@ template <HourglassForm H>
 template <HourglassForm H>
 [[gnu::noinline, gnu::noclone]] Pack Hex8Group<H>::resist(std::size_t b, int lane, const HexModes<Pack>& x,
                                                           const HexModes<Pack>& v, double dt, const Work& work,
-                                                          double (*rows)[8][pack_width]) {
+                                                          double (*rows)[8][pack_width], Batch<1>& wave_step) {
   HourglassBatch none;
   HourglassBatch& hourglass = H::state_size > 0 ? hourglass_state_[b] : none;
   Pack relaxation = broadcast<Pack>(1.0);
   if (H::uses_relaxation && dt > 0) relaxation = load(work.relaxation[0] + lane);
-  const ElementForces<Pack> f = element_forces(
-      x, v, load_tensor(points.stress(b, 0), lane), reference(b, lane, relaxation),
-      Moduli<Pack>{load(work.moduli[0] + lane), load(work.moduli[1] + lane)}, parameters_, hourglass, lane, dt);
+  const Moduli<Pack> moduli{load(work.moduli[0] + lane), load(work.moduli[1] + lane)};
+  const ElementForces<Pack> f =
+      element_forces(x, v, load_tensor(points.stress(b, 0), lane), reference(b, lane, relaxation), moduli, parameters_,
+                     hourglass, lane, dt);
   store_rows(f, rows);
+  if (follows()) {
+    const Pack wave = wave_frequency_squared(f.greatest, moduli, load(mass[b][0] + lane), f.volume);
+    store(wave_step[0] + lane, damped_step(wave, f.damping, Pack{}));
+  }
   if (dt > 0) add_energies(b, lane, f, work);
   return f.step;
 }
@@ -192,7 +199,7 @@ void Hex8Group<H>::bury(std::size_t b, double (*rows)[8][pack_width], Batch<1>& 
 }
 
 template <HourglassForm H>
-bool Hex8Group<H>::add_product(const NodeArrays& nodes, const double* u, double stiffness, double damping,
+void Hex8Group<H>::add_product(const NodeArrays& nodes, const double* u, double stiffness, double damping,
                                ForceRow* out) const {
   alignas(64) double rows[lanes][8][pack_width];
   for (std::size_t b = 0; b < batches(); ++b) {
@@ -211,7 +218,6 @@ bool Hex8Group<H>::add_product(const NodeArrays& nodes, const double* u, double 
       if (dead[b][0][l] != 0) clear(rows[l]);
     scatter(rows, connectivity_[b], count(b), out->v);
   }
-  return true;
 }
 
 template <HourglassForm H>

@@ -19,7 +19,8 @@ class Hex8Group final : public ElementGroup {
 
   std::string_view formulation() const override { return "hex8, one point"; }
   GroupStep advance(const NodeArrays& nodes, double dt) override;
-  bool add_product(const NodeArrays& nodes, const double* u, double stiffness, double damping,
+  bool has_product() const override { return true; }
+  void add_product(const NodeArrays& nodes, const double* u, double stiffness, double damping,
                    ForceRow* out) const override;
   double volume(LocalIndex element, std::span<const Vec3> positions) const override;
   std::vector<StateArray> state() override;
@@ -35,7 +36,8 @@ class Hex8Group final : public ElementGroup {
     Batch<2> moduli;
   };
 
-  void advance_batch(std::size_t b, const NodeArrays& nodes, double dt, Batch<1>& least, Batch<1>& where);
+  void advance_batch(std::size_t b, const NodeArrays& nodes, double dt, Batch<1>& least, Batch<1>& where,
+                     double& shrink);
   void update_material(std::size_t b, const NodeArrays& nodes, const HexModes<Pack> (&x)[halves],
                        const HexModes<Pack> (&v)[halves], double dt, Work& work);
   void deform(std::size_t b, int lane, const HexModes<Pack>& x, const HexModes<Pack>& v, double dt,
@@ -43,7 +45,7 @@ class Hex8Group final : public ElementGroup {
   void measure(std::size_t b, int lane, const HexModes<Pack>& x, const NodeArrays& nodes, Batch<9>& gradient,
                Batch<1>& volume_ratio, Batch<1>& added_heat);
   Pack resist(std::size_t b, int lane, const HexModes<Pack>& x, const HexModes<Pack>& v, double dt, const Work& work,
-              double (*rows)[8][pack_width]);
+              double (*rows)[8][pack_width], Batch<1>& wave_step);
   void add_energies(std::size_t b, int lane, const ElementForces<Pack>& f, const Work& work);
   void bury(std::size_t b, double (*rows)[8][pack_width], Batch<1>& step);
   ElementReference<Pack> reference(std::size_t b, int lane, const Pack& relaxation) const {

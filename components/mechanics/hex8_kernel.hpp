@@ -40,6 +40,7 @@ struct ElementForces {
   ScalarModes<R> x, y, z;                ///< N; nodal forces by from_modes
   R volume;                              ///< m^3
   R step;                                ///< stable step, s, or a code
+  R greatest, damping;                   ///< eigenvalue of G, m^4, and of M^-1 C by bulk viscosity, 1/s
   R viscosity_energy, hourglass_energy;  ///< taken up in the step, J
 };
 
@@ -92,7 +93,8 @@ TENON_KERNEL ElementForces<R> element_forces(const HexModes<R>& x, const HexMode
   const HourglassResult<R> hourglass =
       p.hourglass.template step<R>(x, hourglass_rates(x, v, l), scale, state, lane, dt);
 
-  const R frequency = frequency_squared_bound(g, moduli, reference.mass, volume);
+  const R greatest = greatest_eigenvalue_bound(g);
+  const R frequency = frequency_squared_bound(scale.trace_g, greatest, moduli, reference.mass, volume);
   const R step = damped_step(frequency, p.viscosity.damping(intensity), p.hourglass.damping(scale));
   const SymmetricTensor<R> d{l.x.x, l.y.y, l.z.z, 0.5 * (l.x.y + l.y.x), 0.5 * (l.y.z + l.z.y), 0.5 * (l.z.x + l.x.z)};
   const R bad = broadcast<R>(exploding_element), inverted = broadcast<R>(inverted_element);
@@ -103,6 +105,8 @@ TENON_KERNEL ElementForces<R> element_forces(const HexModes<R>& x, const HexMode
                                                             stress.zz + viscous, stress.xy, stress.yz, stress.zx},
                                          hourglass.force);
   result.volume = volume;
+  result.greatest = greatest;
+  result.damping = p.viscosity.damping(intensity);
   result.step = volume > 0.0 ? checked : (volume <= 0.0 ? inverted : bad);
   result.viscosity_energy = dt * (viscous * rate * volume);
   result.hourglass_energy = hourglass.energy;

@@ -18,6 +18,8 @@ Mechanics::Mechanics(std::string name, std::shared_ptr<const Mesh> mesh, Mechani
   make_groups();
   sum_masses();
   set_temperatures();
+  follow_limit();
+  loads_ = std::make_unique<Loads>(*mesh_, options_.loads, groups_);
 }
 
 void Mechanics::initialize() {
@@ -61,10 +63,12 @@ void kick_vectors(std::span<Vec3> velocity, std::span<const ForceRow> force, std
 void Mechanics::kick(double dt) {
   const ScopedTimer timer(*phases_.update);
   const double kick = 0.5 * (previous_dt_ + dt);
+  if (!loads_->empty()) loads_->apply(nodes_, groups_, time());
   kick_vectors(nodes_.velocity(), nodes_.force, nodes_.inverse_mass, kick, nodes_.internal_work);
   if (nodes_.has_rotations())
     kick_vectors(nodes_.spin(), nodes_.moment, nodes_.inverse_inertia, kick, nodes_.internal_work);
   conditions_.apply(nodes_, time(), kick, dt);
+  if (!loads_->empty()) loads_->book(nodes_, kick);
 }
 
 void Mechanics::refresh_ghosts() {
@@ -99,7 +103,9 @@ void Mechanics::compute_forces(double dt) {
     }
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     const GroupStep found = groups_[g]->advance(nodes_.arrays(), dt);
+    const double shrink = std::min(local_least_.shrink, found.shrink);
     if (found.step < local_least_.step) local_least_ = found, local_least_group_ = g;
+    local_least_.shrink = shrink;
   }
   if (dt > 0) previous_dt_ = dt;
 }
@@ -113,19 +119,41 @@ void Mechanics::exchange_nodal_values(ElementGroup& group) {
 // Codes of bad elements are negative, so the same reduction finds them.
 void Mechanics::choose_step() {
   const ScopedTimer timer(*phases_.reduce);
-  last_good_ = estimate_;
-  estimate_ = mesh_->comm.min(local_least_.step);
+  last_good_ = limit_;
+  std::array<double, 2> least{local_least_.step, local_least_.shrink};
+  mesh_->comm.min(std::span<double>(least));
+  estimate_ = least[0];
   if (estimate_ < 0) fail(estimate_);
   if (first_estimate_ == 0) first_estimate_ = estimate_;
   if (estimate_ < options_.time_step.collapse * first_estimate_) fail(estimate_);
-  stable_step_ = options_.time_step.scale * estimate_;
+  limit_ = std::max(estimate_, verified_step_ * least[1]);
+  if (assembled_ && search_is_due()) search_step();
+  stable_step_ = options_.time_step.scale * limit_;
   if (options_.time_step.maximum) stable_step_ = std::min(stable_step_, *options_.time_step.maximum);
   if (options_.time_step.fixed) stable_step_ = *options_.time_step.fixed;
-  if (stable_step_ > 1.02 * estimate_ && warnings_.empty())
+  if (stable_step_ > 1.02 * limit_ && warnings_.empty())
     warnings_.push_back(
-        fmt::format("{}: the time step, {:.4g} s, is {:.2f} times that which a free element allows, "
-                    "{:.4g} s; this can be unstable (time_step.fixed, time_step.scale)",
-                    name(), stable_step_, stable_step_ / estimate_, estimate_));
+        fmt::format("{}: the time step, {:.4g} s, is {:.2f} times that which is known to be stable, {:.4g} s; this can "
+                    "be unstable (time_step.fixed, time_step.scale)",
+                    name(), stable_step_, stable_step_ / limit_, limit_));
+}
+
+// A search costs some forty steps. It is done again when a tenth of what it gave may be lost, at first after 500 steps,
+// and half as often each time that it gained little over what the elements alone allow.
+bool Mechanics::search_is_due() const {
+  if (verified_step_ == 0) return true;
+  return limit_ < 0.9 * verified_step_ && steps_ - searched_at_ >= search_interval_;
+}
+
+void Mechanics::search_step() {
+  verified_step_ = assembled_->find(nodes_, groups_, estimate_);
+  if (search_interval_ == 0)
+    search_interval_ = 500;
+  else if (verified_step_ < 1.1 * estimate_)
+    search_interval_ *= 2;
+  searched_at_ = steps_;
+  limit_ = std::max(limit_, verified_step_);
+  for (const auto& group : groups_) group->verify(verified_step_);
 }
 
 }  // namespace tenon

@@ -6,7 +6,9 @@
 #include <optional>
 #include <vector>
 
+#include "components/mechanics/assembled_step.hpp"
 #include "components/mechanics/element_group.hpp"
+#include "components/mechanics/loads.hpp"
 #include "components/mechanics/mechanics_options.hpp"
 #include "components/mechanics/nodal_conditions.hpp"
 #include "components/mechanics/nodal_state.hpp"
@@ -60,6 +62,7 @@ class Mechanics final : public Component {
   void make_groups();
   void sum_masses();
   void set_temperatures();
+  void follow_limit();
   void set_velocities();
   // Phases of a step.
   void kick(double dt);
@@ -67,6 +70,8 @@ class Mechanics final : public Component {
   void drift(double dt);
   void compute_forces(double dt);
   void choose_step();
+  void search_step();
+  bool search_is_due() const;
   void exchange_nodal_values(ElementGroup& group);
   // Messages.
   [[noreturn]] void fail(double code);
@@ -86,12 +91,17 @@ class Mechanics final : public Component {
   NodalConditions conditions_;
   NodalState nodes_;
   std::vector<std::unique_ptr<ElementGroup>> groups_;  // as the blocks of the mesh
+  std::unique_ptr<Loads> loads_;
 
   double previous_dt_ = 0;  // of the last half step
   double stable_step_ = 0;  // what time_step() says
   double estimate_ = 0;     // of the elements, without scale
-  double last_good_ = 0;    // the estimate before, for messages
+  double limit_ = 0;        // of the mesh, without scale; the estimate of the elements where that is not followed
+  double last_good_ = 0;    // the limit before, for messages
   double first_estimate_ = 0;
+  std::unique_ptr<AssembledStep> assembled_;  // none where the elements alone decide
+  double verified_step_ = 0;                  // of the mesh when it was last searched, s
+  std::int64_t searched_at_ = 0, search_interval_ = 0;
   GroupStep local_least_{};  // of this rank
   std::size_t local_least_group_ = 0;
   int passes_ = 1;  // of the group with the most

@@ -27,6 +27,9 @@ void Mechanics::save(CheckpointWriter& file) {
   file.scalar(key("previous_dt"), previous_dt_);
   file.scalar(key("first_estimate"), first_estimate_);
   file.integer(key("steps"), steps_);
+  file.scalar(key("verified_step"), verified_step_);
+  file.integer(key("searched_at"), searched_at_);
+  file.integer(key("search_interval"), search_interval_);
   std::vector<LocalIndex> chosen;
   const GlobalOrder nodes(mesh_->comm, chosen_ids(mesh_->node_ids, mesh_->node_owners, mesh_->comm.rank(), 0, chosen),
                           mesh_->global_nodes);
@@ -46,6 +49,8 @@ void Mechanics::save(CheckpointWriter& file) {
     node_array("boundary_work", 1, [&](std::size_t n, std::size_t) { return conditions_.boundary_work()[n]; });
   if (conditions_.has_walls())
     node_array("wall_work", 1, [&](std::size_t n, std::size_t) { return conditions_.wall_work()[n]; });
+  for (const Loads::Row& row : loads_->rows())
+    node_array(row.name, 1, [&](std::size_t n, std::size_t) { return row.work[n]; });
   for (const auto& group : groups_) {
     const ElementBlock& block = group->elements();
     chosen.clear();
@@ -66,6 +71,9 @@ void Mechanics::load(const CheckpointReader& file) {
   previous_dt_ = file.scalar(key("previous_dt"));
   first_estimate_ = file.scalar(key("first_estimate"));
   steps_ = file.integer(key("steps"));
+  verified_step_ = file.scalar(key("verified_step"));
+  searched_at_ = file.integer(key("searched_at"));
+  search_interval_ = file.integer(key("search_interval"));
   std::vector<LocalIndex> chosen;
   const GlobalOrder nodes(mesh_->comm, chosen_ids(mesh_->node_ids, mesh_->node_owners, every_rank, 0, chosen),
                           mesh_->global_nodes);
@@ -87,6 +95,8 @@ void Mechanics::load(const CheckpointReader& file) {
                [&](std::size_t n, std::size_t) -> double& { return conditions_.boundary_work()[n]; });
   if (conditions_.has_walls())
     node_array("wall_work", 1, [&](std::size_t n, std::size_t) -> double& { return conditions_.wall_work()[n]; });
+  for (Loads::Row& row : loads_->rows())
+    node_array(row.name, 1, [&](std::size_t n, std::size_t) -> double& { return row.work[n]; });
   for (const auto& group : groups_) {
     const ElementBlock& block = group->elements();
     chosen.clear();
@@ -100,12 +110,14 @@ void Mechanics::load(const CheckpointReader& file) {
         for (int row = 0; row < array.rows; ++row) array.at(e, row) = *from++;
     }
     group->fill_padding();
+    group->verified_step = verified_step_;
   }
   loaded_ = started_ = true;
 }
 
 std::int64_t Mechanics::memory() const {
-  std::int64_t bytes = conditions_.memory() + static_cast<std::int64_t>(nodes_.size() * (6 + 3 + 4) * sizeof(double));
+  std::int64_t bytes =
+      conditions_.memory() + loads_->memory() + static_cast<std::int64_t>(nodes_.size() * (6 + 3 + 4) * sizeof(double));
   if (nodes_.has_rotations()) bytes += static_cast<std::int64_t>(nodes_.size() * (3 + 2 + 4) * sizeof(double));
   for (const auto& group : groups_) bytes += group->memory();
   return bytes;

@@ -16,7 +16,8 @@ void for_owned(const Mesh& mesh, const std::vector<std::unique_ptr<ElementGroup>
 
 }  // namespace
 
-// The work of the nodes against all element forces is internal energy, hourglass energy and viscosity together; the
+// The work of the nodes against all element forces (booked less that of the loads) is internal energy, hourglass energy
+// and viscosity together; the
 // elements know the last two, and what was in those that have failed.
 void Mechanics::energies(std::vector<EnergyTerm>& terms) {
   using Role = EnergyTerm::Role;
@@ -33,6 +34,7 @@ void Mechanics::energies(std::vector<EnergyTerm>& terms) {
     internal.local.add(nodes_.internal_work[i]);
     if (conditions_.has_motions()) boundary.local.add(conditions_.boundary_work()[i]);
     if (conditions_.has_walls()) wall.local.add(conditions_.wall_work()[i]);
+    for (const Loads::Row& row : loads_->rows()) internal.local.add(row.work[i]);
   }
   bool has_plasticity = false, can_fail = false;
   for (const auto& group : groups_)
@@ -50,6 +52,10 @@ void Mechanics::energies(std::vector<EnergyTerm>& terms) {
   if (can_fail) terms.push_back(std::move(eroded));
   if (conditions_.has_motions()) terms.push_back(std::move(boundary));
   if (conditions_.has_walls()) terms.push_back(std::move(wall));
+  for (const Loads::Row& row : loads_->rows()) {
+    EnergyTerm& term = terms.emplace_back(EnergyTerm{row.name, row.role, {}});
+    for (const LocalIndex n : mesh_->owned_nodes) term.local.add(row.sign * row.work[static_cast<std::size_t>(n)]);
+  }
   if (!has_plasticity) return;
   terms.push_back(std::move(plastic));
   if (options_.heat != HeatMode::none) terms.push_back(std::move(generated));

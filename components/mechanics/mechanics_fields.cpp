@@ -138,6 +138,7 @@ std::vector<SkipCount> Mechanics::skips() const {
   if (mesh_->comm.size() == 1) skipped.push_back({"exchange of ghost velocities (one rank)", steps_});
   if (!conditions_.has_motions() && !conditions_.has_walls())
     skipped.push_back({"prescribed motions and walls (none)", steps_});
+  if (loads_->empty()) skipped.push_back({"loads (none)", steps_});
   return skipped;
 }
 

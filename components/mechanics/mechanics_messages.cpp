@@ -43,9 +43,11 @@ StepLimiter Mechanics::limiter() {
     comm.broadcast(reason, root);
   }
   if (options_.time_step.fixed)
-    reason = fmt::format("time_step.fixed ({:.3g} of the step of {})", stable_step_ / estimate_, reason);
-  else if (stable_step_ < options_.time_step.scale * estimate_)
+    reason = fmt::format("time_step.fixed ({:.3g} of the step of {})", stable_step_ / limit_, reason);
+  else if (stable_step_ < options_.time_step.scale * limit_)
     reason = "time_step.maximum";
+  else if (limit_ > estimate_)
+    reason = fmt::format("the whole mesh ({:.3g} times the step that {} allows alone)", limit_ / estimate_, reason);
   return {stable_step_, reason};
 }
 

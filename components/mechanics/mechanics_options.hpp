@@ -10,6 +10,8 @@
 
 #include "components/materials/material.hpp"
 #include "components/mechanics/bulk_viscosity.hpp"
+#include "components/mechanics/load_options.hpp"
+#include "components/mechanics/shell4_section.hpp"
 #include "framework/base/time_function.hpp"
 #include "framework/base/types.hpp"
 
@@ -21,8 +23,12 @@ struct HourglassOptions {
 };
 
 struct TimeStepOptions {
-  double scale = 0.9;             ///< of the element estimate
-  std::optional<double> fixed;    ///< s; the estimate is then only watched
+  enum class Estimate {
+    automatic,  ///< that of the assembled mesh where all elements allow it
+    element     ///< the least that an element alone allows
+  } estimate = Estimate::automatic;
+  double scale = 0.9;           ///< of the estimate
+  std::optional<double> fixed;  ///< s; the estimate is then only watched
   std::optional<double> maximum;  ///< s
   double collapse = 1e-4;         ///< the run stops when the estimate falls below this share of the first one
 };
@@ -49,13 +55,14 @@ struct PrescribedMotion {
     fixed,         ///< stands still
     displacement,  ///< u = value(t), component by component, m
     velocity,      ///< v = value(t), component by component, m/s
+    acceleration,  ///< dv/dt = value(t), component by component, m/s^2
     gradient,      ///< u = factor(t) gradient (X - centre)
     rotation,      ///< x = centre + R(factor(t)) (X - centre), right-handed about axis, rad
     symmetry,      ///< no motion along the normal
     wall           ///< moves along the normal by factor(t), m, as the rigid wall that it is bonded to does
   } kind = Kind::fixed;
   std::vector<std::string> node_sets;                ///< one or more; a node in several counts once
-  std::array<bool, 3> components{true, true, true};  ///< of fixed, displacement, velocity, gradient
+  std::array<bool, 3> components{true, true, true};  ///< of fixed, displacement, velocity, acceleration, gradient
   std::array<TimeFunction, 3> value;
   TimeFunction factor;
   std::array<double, 9> gradient{};  ///< rows
@@ -75,9 +82,15 @@ struct RigidWall {
 };
 
 struct MechanicsOptions {
+  enum class Formulation {
+    automatic,  ///< hex8 one point, tet4 and wedge6 with nodal averages of the volume strain, pyramid5 full
+    full        ///< every quadrature point, volume strain of the element; tet4 and wedge6 can lock
+  };
   struct Block {
     std::string name;
     MaterialDescription material;
+    Formulation formulation = Formulation::automatic;
+    ShellSection shell;  ///< of blocks of quad4 and tri3
   };
   std::vector<Block> blocks;  ///< every block of the mesh
   HourglassOptions hourglass;
@@ -88,6 +101,7 @@ struct MechanicsOptions {
   std::vector<InitialVelocity> initial_velocities;
   std::vector<PrescribedMotion> motions;
   std::vector<RigidWall> walls;
+  LoadOptions loads;
 
   /// For programs and manufactured solutions; a scene cannot give it. Velocity (m/s) at a reference position (m), added
   /// to `initial_velocities`.

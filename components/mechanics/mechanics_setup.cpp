@@ -49,6 +49,15 @@ void Mechanics::sum_masses() {
   invert(nodes_.inertia, nodes_.inverse_inertia);
 }
 
+// The limit of the assembled mesh is sought only where it decides and every element has its part in it.
+void Mechanics::follow_limit() {
+  const TimeStepOptions& options = options_.time_step;
+  if (options.fixed || options.estimate == TimeStepOptions::Estimate::element) return;
+  if (!std::ranges::all_of(groups_, [](const auto& group) { return group->has_product(); })) return;
+  assembled_ = std::make_unique<AssembledStep>(*mesh_, nodes_);
+  for (const auto& group : groups_) group->follow_limit();
+}
+
 void Mechanics::set_temperatures() {
   for (const auto& group : groups_) {
     const std::optional<ThermalProperties>& thermal = group->material().thermal;

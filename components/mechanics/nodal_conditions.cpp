@@ -172,15 +172,20 @@ void NodalConditions::add_row(const Vec3& normal, std::int32_t motion, Constrain
 }
 
 NodalConditions::Prepared NodalConditions::prepare(const PrescribedMotion& m, double time, double dt) const {
-  Prepared p{stands_still(m), {}, m.centre, {}};
+  using Form = Prepared::Form;
+  Prepared p{stands_still(m) ? Form::velocity : Form::place, {}, m.centre, {}};
   const double end = time + dt;
   switch (m.kind) {
     case Kind::fixed:
     case Kind::symmetry:
       break;
     case Kind::velocity:
-      p.velocity = true;
+      p.form = Form::velocity;
       for (std::size_t c = 0; c < 3; ++c) p.b[c] = m.value[c](time + 0.5 * dt);
+      break;
+    case Kind::acceleration:
+      p.form = Form::acceleration;
+      for (std::size_t c = 0; c < 3; ++c) p.b[c] = m.value[c](time);
       break;
     case Kind::displacement:
       for (std::size_t c = 0; c < 3; ++c) p.b[c] = m.value[c](end);
@@ -198,11 +203,17 @@ NodalConditions::Prepared NodalConditions::prepare(const PrescribedMotion& m, do
   return p;
 }
 
-double NodalConditions::target(const Row& row, const Vec3& reference, const Vec3& position, double dt) const {
+double NodalConditions::target(const Row& row, const NodalState& nodes, std::size_t n, double kick, double dt) const {
   const Prepared& p = prepared_[static_cast<std::size_t>(row.motion)];
-  if (p.velocity) return dot(row.normal, p.b);
+  if (p.form == Prepared::Form::velocity) return dot(row.normal, p.b);
+  if (p.form == Prepared::Form::acceleration) {
+    const double* f = nodes.force[n].v;
+    const Vec3 before = nodes.velocity()[n] + kick * nodes.inverse_mass[n] * Vec3{f[0], f[1], f[2]};
+    return dot(row.normal, before + kick * p.b);
+  }
+  const Vec3& reference = mesh_.coordinates[n];
   const Vec3 displacement = p.b + times(p.a, reference - p.c);
-  return dot(row.normal, (reference - position) + displacement) / dt;
+  return dot(row.normal, (reference - nodes.position()[n]) + displacement) / dt;
 }
 
 void NodalConditions::start(std::span<Vec3> velocity, double time) {
@@ -214,7 +225,7 @@ void NodalConditions::start(std::span<Vec3> velocity, double time) {
     for (int k = 0; k < entry.rows; ++k) {
       const Row& row = entry.row[k];
       const Prepared& p = prepared_[static_cast<std::size_t>(row.motion)];
-      double g = dot(row.normal, p.velocity ? p.b : given);
+      double g = dot(row.normal, p.form == Prepared::Form::velocity ? p.b : given);
       for (int j = 0; j < k; ++j) g -= row.along[j] * along[j];
       along[k] = g * row.inverse;
       v = v + (along[k] - dot(row.direction, v)) * row.direction;
@@ -240,10 +251,11 @@ double replace_component(NodalState& nodes, std::size_t n, const Vec3& direction
 
 void NodalConditions::enforce(Constrained& entry, NodalState& nodes, double kick, double dt) {
   const auto n = static_cast<std::size_t>(entry.node);
-  double along[3];
+  double along[3], wanted[3];  // all wanted ones first: an acceleration starts from the velocity before
+  for (int k = 0; k < entry.rows; ++k) wanted[k] = target(entry.row[k], nodes, n, kick, dt);
   for (int k = 0; k < entry.rows; ++k) {
     const Row& row = entry.row[k];
-    double g = target(row, mesh_.coordinates[n], nodes.position()[n], dt);
+    double g = wanted[k];
     for (int j = 0; j < k; ++j) g -= row.along[j] * along[j];
     along[k] = g * row.inverse;
     const double work = replace_component(nodes, n, row.direction, along[k], kick);

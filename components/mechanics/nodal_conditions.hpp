@@ -51,9 +51,9 @@ class NodalConditions {
     std::int32_t constrained;        // or -1
     std::int32_t first_wall, walls;  // in standing_walls_
   };
-  /// A motion at one time: u = b + a (X - c), or a velocity b.
+  /// A motion at one time: u = b + a (X - c), a velocity b, or an acceleration b.
   struct Prepared {
-    bool velocity;
+    enum class Form { place, velocity, acceleration } form;
     Vec3 b, c;
     std::array<double, 9> a;
   };
@@ -62,7 +62,7 @@ class NodalConditions {
   void add_row(const Vec3& normal, std::int32_t motion, Constrained& entry, std::optional<Error>& error) const;
   void find_walls(const Mesh& mesh, const std::vector<RigidWall>& walls);
   Prepared prepare(const PrescribedMotion& motion, double time, double dt) const;
-  double target(const Row& row, const Vec3& reference, const Vec3& position, double dt) const;
+  double target(const Row& row, const NodalState& nodes, std::size_t n, double kick, double dt) const;
   void enforce(Constrained& entry, NodalState& nodes, double kick, double dt);
   void enforce(const Standing& entry, NodalState& nodes, double kick, double dt);
 

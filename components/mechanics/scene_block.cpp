@@ -6,6 +6,8 @@
 #include <algorithm>
 
 #include "components/mechanics/element_kinds.hpp"
+#include "components/mechanics/load_scene.hpp"
+#include "components/mechanics/scene_reader.hpp"
 
 namespace tenon {
 namespace {
@@ -14,76 +16,6 @@ using scene::Diagnostics;
 using scene::Value;
 using Kind = PrescribedMotion::Kind;
 using Materials = std::map<std::string, MaterialDescription>;
-
-/// What reading needs all the time.
-struct Reader {
-  const MeshSummary& mesh;
-  Diagnostics& diagnostics;
-
-  void check_name(const Value& value, const std::string& key, const std::string& name,
-                  const std::vector<MeshSummary::Entry>& entries, const std::string& what) const {
-    std::vector<std::string> names;
-    for (const MeshSummary::Entry& entry : entries) names.push_back(entry.name);
-    const auto found = std::ranges::find(names, name);
-    if (found == names.end())
-      diagnostics.error(value.where(key), fmt::format("{}: the mesh {} has no {} '{}'{}", key, mesh.source, what, name,
-                                                      scene::suggestion(name, names)));
-    else if (entries[static_cast<std::size_t>(found - names.begin())].count == 0)
-      diagnostics.error(value.where(key),
-                        fmt::format("{}: {} '{}' of the mesh {} is empty", key, what, name, mesh.source));
-  }
-
-  std::vector<std::string> node_sets(const Value& value) const {
-    if (!value.has("node_sets")) return {};
-    const std::vector<std::string> sets = value.texts("node_sets");
-    for (const std::string& set : sets) check_name(value, "node_sets", set, mesh.node_sets, "node set");
-    return sets;
-  }
-
-  std::array<bool, 3> components(const Value& value) const {
-    if (!value.has("components")) return {true, true, true};
-    std::array<bool, 3> chosen{};
-    const std::vector<std::string> names{"x", "y", "z"};
-    for (const std::string& c : value.texts("components")) {
-      const auto found = std::ranges::find(names, c);
-      if (found != names.end())
-        chosen[static_cast<std::size_t>(found - names.begin())] = true;
-      else
-        diagnostics.error(value.where("components"), fmt::format("components: '{}' is not one of x, y, z", c));
-    }
-    return chosen;
-  }
-
-  std::array<double, 9> gradient(const Value& value) const {
-    std::array<double, 9> result{};
-    if (!value.has("gradient")) return result;
-    const std::vector<double> given = value.reals("gradient");
-    if (given.size() != 9)
-      diagnostics.error(value.where("gradient"),
-                        fmt::format("gradient: has {} numbers; expected nine, row by row", given.size()));
-    std::copy_n(given.begin(), std::min<std::size_t>(given.size(), 9), result.begin());
-    return result;
-  }
-
-  Vec3 direction(const Value& value, const std::string& key) const {
-    const Vec3 v = value.vector(key);
-    if (!(norm(v) > 0)) diagnostics.error(value.where(key), key + ": has no length; expected a direction");
-    return norm(v) > 0 ? v : Vec3{0, 0, 1};
-  }
-
-  std::vector<Value> items(const Value& value, const char* key) const {
-    return value.has(key) ? value.items(key) : std::vector<Value>{};
-  }
-
-  PrescribedMotion motion(const Value& value, Kind kind, const std::string& what) const {
-    PrescribedMotion m;
-    m.kind = kind;
-    m.node_sets = node_sets(value);
-    m.label = what;
-    for (const std::string& set : m.node_sets) m.label += (&set == &m.node_sets.front() ? " of " : ", ") + set;
-    return m;
-  }
-};
 
 const MaterialDescription* find_material(const Value& value, const Materials& materials, Diagnostics& diagnostics) {
   const std::string& name = value.text("material");
@@ -103,7 +35,12 @@ const MaterialDescription* find_material(const Value& value, const Materials& ma
   return &found->second;
 }
 
-void read_blocks(const Value& value, const Reader& reader, const Materials& materials, MechanicsOptions& options) {
+MechanicsOptions::Formulation read_formulation(const Value& value) {
+  using Formulation = MechanicsOptions::Formulation;
+  return value.text("formulation") == "full" ? Formulation::full : Formulation::automatic;
+}
+
+void read_blocks(const Value& value, const SceneReader& reader, const Materials& materials, MechanicsOptions& options) {
   std::map<std::string, Value> own;
   if (value.has("blocks"))
     for (const auto& [name, block] : value.entries("blocks")) own.emplace(name, block);
@@ -121,7 +58,7 @@ void read_blocks(const Value& value, const Reader& reader, const Materials& mate
     }
     const Value& from = found == own.end() ? value : found->second;
     if (const MaterialDescription* material = find_material(from, materials, reader.diagnostics)) {
-      options.blocks.push_back({entry.name, *material});
+      options.blocks.push_back({entry.name, *material, read_formulation(from)});
       const bool plastic = !std::holds_alternative<std::monostate>(material->plasticity);
       if (options.heat != HeatMode::none && plastic && !material->thermal)
         reader.diagnostics.error(
@@ -160,12 +97,13 @@ void read_control(const Value& value, MechanicsOptions& options) {
   if (value.has("time_step")) {
     const Value step = value.child("time_step");
     options.time_step.scale = step.real("scale");
+    if (step.text("estimate") == "element") options.time_step.estimate = TimeStepOptions::Estimate::element;
     if (step.has("fixed")) options.time_step.fixed = step.real("fixed");
     if (step.has("maximum")) options.time_step.maximum = step.real("maximum");
   }
 }
 
-void read_initial(const Value& value, const Reader& reader, MechanicsOptions& options) {
+void read_initial(const Value& value, const SceneReader& reader, MechanicsOptions& options) {
   if (value.has("initial_velocity"))
     options.initial_velocities.push_back({"", "", value.vector("initial_velocity"), {}, {}});
   for (const Value& item : reader.items(value, "initial_velocities")) {
@@ -185,7 +123,7 @@ void read_initial(const Value& value, const Reader& reader, MechanicsOptions& op
   }
 }
 
-void read_components(const Value& item, const Reader& reader, PrescribedMotion& m) {
+void read_components(const Value& item, const SceneReader& reader, PrescribedMotion& m) {
   const char* const names[] = {"x", "y", "z"};
   for (std::size_t c = 0; c < 3; ++c) {
     m.components[c] = item.has(names[c]);
@@ -195,7 +133,7 @@ void read_components(const Value& item, const Reader& reader, PrescribedMotion& 
     reader.diagnostics.error(item.where(), "prescribes nothing; expected at least one of x, y, z");
 }
 
-void read_motions(const Value& value, const Reader& reader, std::vector<PrescribedMotion>& motions) {
+void read_motions(const Value& value, const SceneReader& reader, std::vector<PrescribedMotion>& motions) {
   for (const Value& item : reader.items(value, "fixed")) {
     PrescribedMotion m = reader.motion(item, Kind::fixed, "fixed");
     m.components = reader.components(item);
@@ -208,6 +146,11 @@ void read_motions(const Value& value, const Reader& reader, std::vector<Prescrib
   }
   for (const Value& item : reader.items(value, "prescribed_velocities")) {
     PrescribedMotion m = reader.motion(item, Kind::velocity, "prescribed velocity");
+    read_components(item, reader, m);
+    motions.push_back(std::move(m));
+  }
+  for (const Value& item : reader.items(value, "prescribed_accelerations")) {
+    PrescribedMotion m = reader.motion(item, Kind::acceleration, "prescribed acceleration");
     read_components(item, reader, m);
     motions.push_back(std::move(m));
   }
@@ -233,7 +176,7 @@ void read_motions(const Value& value, const Reader& reader, std::vector<Prescrib
   }
 }
 
-void read_walls(const Value& value, const Reader& reader, MechanicsOptions& options) {
+void read_walls(const Value& value, const SceneReader& reader, MechanicsOptions& options) {
   for (const Value& item : reader.items(value, "rigid_walls")) {
     const TimeFunction motion = item.has("motion") ? item.function("motion") : TimeFunction::constant(0);
     if (!item.flag("bilateral")) {
@@ -255,13 +198,14 @@ void read_walls(const Value& value, const Reader& reader, MechanicsOptions& opti
 
 MechanicsOptions read_mechanics(const Value& value, const MeshSummary& mesh, const Materials& materials,
                                 Diagnostics& diagnostics) {
-  const Reader reader{mesh, diagnostics};
+  const SceneReader reader{mesh, diagnostics};
   MechanicsOptions options;
   read_control(value, options);
   read_blocks(value, reader, materials, options);
   read_initial(value, reader, options);
   read_motions(value, reader, options.motions);
   read_walls(value, reader, options);
+  read_loads(value, reader, options.loads);
   return options;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Keys of explicit mechanics in a scene.
+#include "components/mechanics/load_scene.hpp"
 #include "components/mechanics/scene_block.hpp"
 
 namespace tenon {
@@ -8,9 +9,17 @@ namespace {
 using scene::Range;
 using scene::Schema;
 
+void add_formulation(Schema& s) {
+  s.choice("formulation", {"automatic", "full"},
+           "`automatic`: one point and hourglass control (hex8), nodal averages of the volume strain (tet4, wedge6); "
+           "`full`: all quadrature points with the mean volume strain of the element (tet4 and wedge6 then lock).",
+           "automatic");
+}
+
 Schema block_schema() {
   Schema s("Material of a block of the mesh.");
   s.text("material", "Name of a material.").required();
+  add_formulation(s);
   return s;
 }
 
@@ -36,7 +45,11 @@ Schema viscosity_schema() {
 
 Schema time_step_schema() {
   Schema s("Time step of the component.");
-  s.quantity("scale", "1", "Share of the stable step of the elements that is taken.", "0.9", {0, 2, true, false});
+  s.choice("estimate", {"automatic", "element"},
+           "`automatic`: the stable step of the assembled mesh, from its greatest eigenvalue, followed as it deforms; "
+           "`element`: the least step that an element alone allows, up to a third shorter.",
+           "automatic");
+  s.quantity("scale", "1", "Share of the stable step that is taken.", "0.9", {0, 2, true, false});
   s.quantity("fixed", "s", "Step to take whatever the elements allow.", "", Range::positive());
   s.quantity("maximum", "s", "Greatest step.", "", Range::positive());
   s.at_most_one({"fixed", "maximum"});
@@ -109,9 +122,10 @@ Schema wall_schema() {
 }  // namespace
 
 Schema mechanics_schema() {
-  Schema s("A deformable body of hexahedra, by explicit central differences.");
+  Schema s("A deformable body, by explicit central differences.");
   s.text("mesh", "Name of a mesh.").required();
   s.text("material", "Material of every block that is not named under `blocks`.");
+  add_formulation(s);
   s.named("blocks", block_schema(), "Materials block by block.");
   s.object("hourglass", hourglass_schema(), "Resistance to the zero-energy modes of the elements.");
   s.object("bulk_viscosity", viscosity_schema(), "Artificial pressure in shocks.");
@@ -130,10 +144,13 @@ Schema mechanics_schema() {
          "Displacements of nodes over time.");
   s.list("prescribed_velocities", components_schema("Velocity that nodes have over time.", "m/s"),
          "Velocities of nodes over time.");
+  s.list("prescribed_accelerations", components_schema("Acceleration that nodes have over time.", "m/s^2"),
+         "Accelerations of nodes over time, from their velocity at the start.");
   s.list("prescribed_gradients", gradient_schema(), "Displacements linear in space.");
   s.list("prescribed_rotations", rotation_schema(), "Rigid rotations of nodes.");
   s.list("symmetry_planes", symmetry_schema(), "Planes of symmetry.");
   s.list("rigid_walls", wall_schema(), "Rigid walls.");
+  add_load_keys(s);
   return s;
 }
 

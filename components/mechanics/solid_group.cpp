@@ -136,12 +136,12 @@ void SolidGroup<N, P>::update(std::size_t b, const NodeArrays& nodes, double dt)
 // see frequency_squared_bound, point by point.
 template <int N, int P>
 void SolidGroup<N, P>::resist(std::size_t b, int lane, const NodeArrays& nodes, double dt,
-                              double (*rows)[N][pack_width], Batch<1>& step) {
+                              double (*rows)[N][pack_width], Batch<1>& step, Batch<1>& wave_step) {
   const Vectors x = gather<N>(nodes.position, connectivity_[b], lane);
   const Vectors v = gather<N>(nodes.velocity, connectivity_[b], lane);
   const Geometry g = solid_geometry<Pack, N, P>(table_, x);
   SymmetricTensor<Pack> deviator[P];
-  Pack mean{}, shear_sum{};
+  Pack mean{}, shear_sum{}, greatest{};
   for (int p = 0; p < P; ++p) {
     SymmetricTensor<Pack> s = load_tensor(points.stress(b, p), lane);
     const Pack m = (1.0 / 3.0) * trace(s);
@@ -154,7 +154,9 @@ void SolidGroup<N, P>::resist(std::size_t b, int lane, const NodeArrays& nodes, 
       products.xx += d.x * d.x, products.yy += d.y * d.y, products.zz += d.z * d.z;
       products.xy += d.x * d.y, products.yz += d.y * d.z, products.zx += d.z * d.x;
     }
-    shear_sum = shear_sum + g.share[p] * greatest_eigenvalue_bound(products);
+    const Pack eigenvalue = greatest_eigenvalue_bound(products);
+    shear_sum = shear_sum + g.share[p] * eigenvalue;
+    greatest = greater_of(greatest, eigenvalue);
   }
   mean = averaged_ ? nodal_mean(b, lane, 1) : mean / g.volume;
   Pack squares{};
@@ -174,7 +176,9 @@ void SolidGroup<N, P>::resist(std::size_t b, int lane, const NodeArrays& nodes, 
 
   const Pack bulk = moduli.lambda + (2.0 / 3.0) * moduli.shear;
   const Pack frequency = static_cast<double>(N) * (bulk * g.volume * squares + 2.0 * moduli.shear * shear_sum) / weight;
-  const Pack stable = damped_step(frequency, (N / 8.0) * viscosity_.damping(intensity), Pack{});
+  const Pack damping = (N / 8.0) * viscosity_.damping(intensity), stable = damped_step(frequency, damping, Pack{});
+  const Pack wave = wave_frequency_squared(g.volume * g.volume * greatest, moduli, (8.0 / N) * weight, g.volume);
+  store(wave_step[0] + lane, damped_step(wave, damping, Pack{}));
   const Tensor<Pack> l = gradient_of(v, g.mean);
   const SymmetricTensor<Pack> d{
       l.x.x, l.y.y, l.z.z, 0.5 * (l.x.y + l.y.x), 0.5 * (l.y.z + l.z.y), 0.5 * (l.z.x + l.x.z)};
@@ -208,12 +212,13 @@ GroupStep SolidGroup<N, P>::advance(const NodeArrays& nodes, double dt) {
   for (std::size_t b = 0; b < batches(); ++b) {
     if (dt > 0 && !averaged_) update(b, nodes, dt);
     alignas(64) double rows[lanes][N][pack_width];
-    Batch<1> step;
-    for (int h = 0; h < halves; ++h) resist(b, h * pack_width, nodes, dt, rows + h * pack_width, step);
+    Batch<1> step, wave_step;
+    for (int h = 0; h < halves; ++h) resist(b, h * pack_width, nodes, dt, rows + h * pack_width, step, wave_step);
     if (!dead.empty()) bury(b, rows, step);
     if (!steps.empty()) steps[b] = step;
+    if (follows()) follow(b, step, wave_step, least.shrink);
     for (int l = 0; l < count(b); ++l)
-      if (step[0][l] < least.step) least = {step[0][l], static_cast<LocalIndex>(b) * lanes + l};
+      if (step[0][l] < least.step) least = {step[0][l], static_cast<LocalIndex>(b) * lanes + l, least.shrink};
     scatter(rows, b, nodes.force);
   }
   return least;
@@ -238,7 +243,7 @@ void SolidGroup<N, P>::scatter(const double (*rows)[N][pack_width], std::size_t 
 }
 
 template <int N, int P>
-bool SolidGroup<N, P>::add_product(const NodeArrays& nodes, const double* u, double stiffness, double damping,
+void SolidGroup<N, P>::add_product(const NodeArrays& nodes, const double* u, double stiffness, double damping,
                                    ForceRow* out) const {
   for (std::size_t b = 0; b < batches(); ++b) {
     alignas(64) double rows[lanes][N][pack_width];
@@ -275,7 +280,6 @@ bool SolidGroup<N, P>::add_product(const NodeArrays& nodes, const double* u, dou
       for (int i = 0; i < N && dead[b][0][l] != 0; ++i) std::fill(rows[l][i], rows[l][i] + pack_width, 0.0);
     scatter(rows, b, out->v);
   }
-  return true;
 }
 
 // Averages at nodes.

@@ -24,7 +24,8 @@ class SolidGroup final : public ElementGroup {
   void prepare(int pass, const NodeArrays& nodes, double dt) override;
   std::span<Vec3> nodal_values() override { return nodal_; }
   GroupStep advance(const NodeArrays& nodes, double dt) override;
-  bool add_product(const NodeArrays& nodes, const double* u, double stiffness, double damping,
+  bool has_product() const override { return true; }
+  void add_product(const NodeArrays& nodes, const double* u, double stiffness, double damping,
                    ForceRow* out) const override;
   double volume(LocalIndex element, std::span<const Vec3> positions) const override;
   std::vector<StateArray> state() override;
@@ -46,7 +47,7 @@ class SolidGroup final : public ElementGroup {
   void measure(std::size_t b, int lane, const NodeArrays& nodes, Work& work);
   void update(std::size_t b, const NodeArrays& nodes, double dt);
   void resist(std::size_t b, int lane, const NodeArrays& nodes, double dt, double (*rows)[N][pack_width],
-              Batch<1>& step);
+              Batch<1>& step, Batch<1>& wave_step);
   void bury(std::size_t b, double (*rows)[N][pack_width], Batch<1>& step);
   void store_rows(const Vectors& f, double (*rows)[N][pack_width]) const;
   void scatter(const double (*rows)[N][pack_width], std::size_t b, double* force) const;

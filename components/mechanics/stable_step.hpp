@@ -33,9 +33,9 @@ TENON_KERNEL R greatest_eigenvalue_bound(const SymmetricTensor<R>& g) {
 /// eigenvalue, the mass m shared equally by 8 nodes; for (b.u)^2 <= tr G |u|^2 and |sym(u b)|^2 <= g |u|^2. Both hold
 /// with equality when a cube breathes. An assembly has no mode faster than its fastest element [HUG87, 7.3]. 1/s^2.
 template <typename R>
-TENON_KERNEL R frequency_squared_bound(const SymmetricTensor<R>& g, const Moduli<R>& moduli, const R& mass,
+TENON_KERNEL R frequency_squared_bound(const R& trace_g, const R& greatest, const Moduli<R>& moduli, const R& mass,
                                        const R& volume) {
-  return 8.0 * (moduli.lambda * trace(g) + (2.0 * moduli.shear) * greatest_eigenvalue_bound(g)) / (mass * volume);
+  return 8.0 * (moduli.lambda * trace_g + (2.0 * moduli.shear) * greatest) / (mass * volume);
 }
 
 /// Damping forces are taken at the velocity of half a step before, so dt^2/4 omega^2 + dt/2 c <= 1 keeps the step
@@ -45,6 +45,13 @@ template <typename R>
 TENON_KERNEL R damped_step(const R& frequency_squared, const R& damping, const R& hourglass_damping) {
   const R half = 0.5 * damping;
   return 2.0 / greater_of(square_root(frequency_squared + half * half) + half, hourglass_damping);
+}
+
+/// The fastest wave along one direction of a mesh of such elements alone, 1/s^2: what an element among its like
+/// allows. Not a bound; its change measures how the limit of a mesh changes.
+template <typename R>
+TENON_KERNEL R wave_frequency_squared(const R& greatest, const Moduli<R>& moduli, const R& mass, const R& volume) {
+  return 8.0 * ((moduli.lambda + 2.0 * moduli.shear) * greatest) / (mass * volume);
 }
 
 }  // namespace tenon

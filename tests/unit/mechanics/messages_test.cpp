@@ -87,11 +87,5 @@ TEST(Messages, ABlockWithoutMaterialIsRefused) {
   EXPECT_THROW(Mechanics("body", shared_mesh(on_root(cubes())), {}), Error);
 }
 
-TEST(Messages, TetrahedraAreRefused) {
-  BoxShape box = cubes();
-  box.tetrahedra = true;
-  EXPECT_THROW(body(shared_mesh(on_root(box)), steel(), {}), Error);
-}
-
 }  // namespace
 }  // namespace tenon::testing

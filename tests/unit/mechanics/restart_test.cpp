@@ -60,6 +60,11 @@ TEST(Restart, ContinuesBitwiseWithViscousHourglass) {
   check(HourglassOptions::Form::viscous, "mechanics_restart_viscous_" + std::to_string(communicator().size()) + ".h5");
 }
 
+TEST(Restart, ContinuesBitwiseWithPhysicalHourglass) {
+  check(HourglassOptions::Form::physical,
+        "mechanics_restart_physical_" + std::to_string(communicator().size()) + ".h5");
+}
+
 TEST(Restart, ContinuesBitwiseWithStiffnessHourglass) {
   check(HourglassOptions::Form::stiffness,
         "mechanics_restart_stiffness_" + std::to_string(communicator().size()) + ".h5");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The same impact on all ranks and on one that has everything: the same bits.
-#include "mechanics_case.hpp"
+#include "solid_meshes.hpp"
 
 namespace tenon::testing {
 namespace {
@@ -51,6 +51,39 @@ TEST(RankInvariance, LinearHardeningViscousHourglass) {
 
 TEST(RankInvariance, JohnsonCookStiffnessHourglass) {
   check(johnson_cook_copper(), HourglassOptions::Form::stiffness, 60);
+}
+
+TEST(RankInvariance, JohnsonCookPhysicalHourglass) {
+  check(johnson_cook_copper(), HourglassOptions::Form::physical, 60);
+}
+
+/// Every other kind of solid, distorted, with plastic flow and failure.
+TEST(RankInvariance, OtherSolids) {
+  using Formulation = MechanicsOptions::Formulation;
+  BoxShape box;
+  box.high = {0.02, 0.01, 0.01};
+  box.elements = {5, 3, 2};
+  box.distortion = 0.2;
+  MaterialDescription material = copper();
+  material.failure.emplace().plastic_strain = 0.25;
+  for (const auto& [kind, formulation] :
+       {std::pair{ElementKind::tet4, Formulation::automatic}, std::pair{ElementKind::tet4, Formulation::full},
+        std::pair{ElementKind::wedge6, Formulation::automatic},
+        std::pair{ElementKind::pyramid5, Formulation::automatic}, std::pair{ElementKind::hex8, Formulation::full},
+        std::pair{ElementKind::hex8, Formulation::automatic}}) {
+    const auto shared = solid_body(shared_mesh(solid_box(box, kind)), material, formulation, impact());
+    const auto whole = solid_body(whole_mesh(solid_box(box, kind)), material, formulation, impact());
+    shared->initialize();
+    whole->initialize();
+    for (int s = 0; s < 60; ++s) {
+      ASSERT_EQ(shared->time_step(), whole->time_step()) << topology(kind).name << " step " << s;
+      shared->advance(shared->time_step());
+      whole->advance(whole->time_step());
+    }
+    for (const char* name : {"displacement", "velocity", "stress", "eqps", "damage"})
+      expect_same_bits(in_global_order(*shared, name), in_global_order(*whole, name), name);
+    EXPECT_EQ(energy_rows(*shared), energy_rows(*whole)) << topology(kind).name;
+  }
 }
 
 }  // namespace
