@@ -12,6 +12,7 @@ namespace {
 void stiffening(const CrushableFoam& foam, const LaneValues& compaction, LaneValues& factor) {
   LaneValues value;
   foam.yield_stress.evaluate(compaction, value, factor);
+#pragma GCC ivdep
   for (int l = 0; l < lanes; ++l) {
     const double slope = factor[l] * (1 - compaction[l]);  // over the logarithmic strain
     const double wanted = CrushableFoam::lead * slope / foam.elasticity.youngs_modulus;
@@ -23,6 +24,7 @@ void trial_stress(const Elasticity& elasticity, const LaneValues& factor, const 
   const double lambda = elasticity.lame_lambda(), two_g = 2 * elasticity.shear_modulus();
   const auto& e = input.strain_increment.v;
   auto& s = stress.v;
+#pragma GCC ivdep
   for (int l = 0; l < lanes; ++l) {
     const double thermal = elasticity.expansion * input.temperature_increment.v[0][l];
     const double volumetric = lambda * (e[0][l] + e[1][l] + e[2][l] - 3 * thermal);
@@ -35,6 +37,7 @@ void trial_stress(const Elasticity& elasticity, const LaneValues& factor, const 
 
 void CrushableFoam::update(const UpdateInput& input, Batch<6>& stress, Batch<1>& state, Batch<1>& plastic_work) const {
   LaneValues compaction, factor, strength, slope;
+#pragma GCC ivdep
   for (int l = 0; l < lanes; ++l) {
     compaction[l] = 1 - (*input.volume_ratio).v[0][l];
     state.v[0][l] = std::max(state.v[0][l], compaction[l]);
@@ -46,6 +49,7 @@ void CrushableFoam::update(const UpdateInput& input, Batch<6>& stress, Batch<1>&
   const PrincipalLanes p = principal(stress);
   const double E = elasticity.youngs_modulus, nu = elasticity.poissons_ratio;
   auto& s = stress.v;
+#pragma GCC ivdep
   for (int l = 0; l < lanes; ++l) {
     double end[3], beyond[3];
     for (int i = 0; i < 3; ++i) {
@@ -68,12 +72,14 @@ void CrushableFoam::update(const UpdateInput& input, Batch<6>& stress, Batch<1>&
 void CrushableFoam::stiffness(const UpdateInput& input, const Batch<6>&, const Batch<1>&, Batch<2>& moduli) const {
   constexpr double ahead = 0.05;
   LaneValues now, later, factor, factor_later;
+#pragma GCC ivdep
   for (int l = 0; l < lanes; ++l) {
     now[l] = 1 - (*input.volume_ratio).v[0][l];
     later[l] = std::min(now[l] + ahead, 0.99);
   }
   stiffening(*this, now, factor);
   stiffening(*this, later, factor_later);
+#pragma GCC ivdep
   for (int l = 0; l < lanes; ++l) {
     const double greater = std::max(factor[l], factor_later[l]);
     moduli.v[0][l] = greater * elasticity.lame_lambda();

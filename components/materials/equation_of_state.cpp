@@ -6,6 +6,7 @@ namespace tenon {
 void Gruneisen::evaluate(const LaneValues& volume, PressureLaw& law) const {
   constexpr double least = 0.01;
   const double stiffness = density * c * c;
+#pragma GCC ivdep
   for (int l = 0; l < lanes; ++l) {
     const double mu = 1 / volume[l] - 1, share = mu / (1 + mu);
     const double N = 1 + mu * ((1 - 0.5 * gamma0) - 0.5 * a * mu), dN = (1 - 0.5 * gamma0) - a * mu;
@@ -23,6 +24,7 @@ void Gruneisen::evaluate(const LaneValues& volume, PressureLaw& law) const {
 }
 
 void PolynomialState::evaluate(const LaneValues& volume, PressureLaw& law) const {
+#pragma GCC ivdep
   for (int l = 0; l < lanes; ++l) {
     const double mu = 1 / volume[l] - 1, C2 = mu > 0 ? C[2] : 0.0, C6 = mu > 0 ? C[6] : 0.0;
     law.A[l] = C[0] + mu * (C[1] + mu * (C2 + mu * C[3]));

@@ -56,6 +56,7 @@ double MooneyRivlin::energy(const double (&F)[9], double thermal_strain) const {
 
 void MooneyRivlin::update(const UpdateInput& input, Batch<6>& stress, Batch<1>& state, Batch<1>& plastic_work) const {
   auto& s = stress.v;
+#pragma GCC ivdep
   for (int l = 0; l < lanes; ++l) {
     double F[9];
     gradient_of(input, l, F);
@@ -85,6 +86,7 @@ void MooneyRivlin::update(const UpdateInput& input, Batch<6>& stress, Batch<1>& 
 ///   U''.
 /// Both are bounded through the ends of the eigenvalues of B and D, of which det B = 1 gives one from the other.
 void MooneyRivlin::stiffness(const UpdateInput& input, const Batch<6>&, const Batch<1>& state, Batch<2>& moduli) const {
+#pragma GCC ivdep
   for (int l = 0; l < lanes; ++l) {
     double F[9];
     gradient_of(input, l, F);

@@ -14,6 +14,7 @@ void find_rate_term(const Curve& curve, const CowperSymonds& rate, double three_
   const double scale = dt * rate.D, p = rate.p;
   LaneValues stress, slope, searching, low, high;
   curve.evaluate(eqps, stress, slope);
+#pragma GCC ivdep
   for (int l = 0; l < lanes; ++l) {
     // The root is below both guesses if the curve does not soften, and always below `high`.
     const double by_rate = trial[l] / stress[l] - 1, excess = trial[l] - stress[l];
@@ -27,8 +28,10 @@ void find_rate_term(const Curve& curve, const CowperSymonds& rate, double three_
   falling_root(
       [&](const LaneValues& at, LaneValues& value, LaneValues& fall) {
         LaneValues d, e;
+#pragma GCC ivdep
         for (int l = 0; l < lanes; ++l) d[l] = scale * power_of(at[l], p), e[l] = eqps[l] + d[l];
         curve.evaluate(e, value, fall);
+#pragma GCC ivdep
         for (int l = 0; l < lanes; ++l) {
           const double flow = value[l];
           value[l] = trial[l] - three_g * d[l] - flow * (1 + at[l]);
@@ -49,6 +52,7 @@ void J2Hardening<Curve>::update(const UpdateInput& input, Batch<6>& stress, Batc
   const LaneValues &q = trial.v[0], &eqps = state.v[0];
   LaneValues before, slope, yields;
   curve.evaluate(eqps, before, slope);
+#pragma GCC ivdep
   for (int l = 0; l < lanes; ++l) {
     yields[l] = q[l] > before[l] ? 1.0 : 0.0;
     plastic_work.v[0][l] = 0;
@@ -59,13 +63,16 @@ void J2Hardening<Curve>::update(const UpdateInput& input, Batch<6>& stress, Batc
   LaneValues increment, rate_term{}, end, after;
   if (rate.active()) {
     find_rate_term(curve, rate, three_g, input.dt, q, eqps, yields, rate_term);
+#pragma GCC ivdep
     for (int l = 0; l < lanes; ++l)
       increment[l] = yields[l] > 0 ? input.dt * rate.D * power_of(rate_term[l], rate.p) : 0.0;
   } else {
     curve.find_increment(three_g, q, eqps, yields, increment);
   }
+#pragma GCC ivdep
   for (int l = 0; l < lanes; ++l) end[l] = eqps[l] + increment[l];
   curve.evaluate(end, after, slope);
+#pragma GCC ivdep
   for (int l = 0; l < lanes; ++l) {
     const double factor = 1 + rate_term[l], shrunk = factor * after[l] / q[l];
     scale.v[0][l] = yields[l] > 0 ? shrunk : 1.0;

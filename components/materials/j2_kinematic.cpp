@@ -19,6 +19,7 @@ Products products(const Batch<6>& stress, const Batch<7>& state) {
   Products p;
   const auto& s = stress.v;
   const auto& a = state.v;
+#pragma GCC ivdep
   for (int l = 0; l < lanes; ++l) {
     const double mean = (s[0][l] + s[1][l] + s[2][l]) / 3;
     const double x = s[0][l] - mean, y = s[1][l] - mean, z = s[2][l] - mean;
@@ -42,6 +43,7 @@ void find_increment(const KinematicHardeningParameters& flow, double three_g, co
                     const LaneValues& radius, const LaneValues& yields, LaneValues& d) {
   const double stiffness = three_g + flow.isotropic_modulus;
   LaneValues searching, low, high;
+#pragma GCC ivdep
   for (int l = 0; l < lanes; ++l) {
     const double excess = about_back_stress(p, 1, l) - radius[l];
     searching[l] = yields[l], low[l] = 0;
@@ -51,6 +53,7 @@ void find_increment(const KinematicHardeningParameters& flow, double three_g, co
   if (flow.recovery == 0) return;
   falling_root(
       [&](const LaneValues& at, LaneValues& value, LaneValues& slope) {
+#pragma GCC ivdep
         for (int l = 0; l < lanes; ++l) {
           const double theta = 1 / (1 + flow.recovery * at[l]), q = about_back_stress(p, theta, l);
           const double turn = q > 0 ? (theta * p.aa[l] - p.sa[l]) / q : 0.0;  // dq / dtheta
@@ -68,6 +71,7 @@ void J2Kinematic::update(const UpdateInput& input, Batch<6>& stress, Batch<7>& s
   const double three_g = 3 * elasticity.shear_modulus(), C = flow.kinematic_modulus;
   const Products p = products(stress, state);
   LaneValues radius, yields, increment;
+#pragma GCC ivdep
   for (int l = 0; l < lanes; ++l) {
     radius[l] = flow.yield_stress + flow.isotropic_modulus * state.v[0][l];
     yields[l] = about_back_stress(p, 1, l) > radius[l] ? 1.0 : 0.0;
@@ -78,25 +82,28 @@ void J2Kinematic::update(const UpdateInput& input, Batch<6>& stress, Batch<7>& s
 
   auto& s = stress.v;
   auto& a = state.v;
+#pragma GCC ivdep
   for (int l = 0; l < lanes; ++l) {
     const double d = increment[l], theta = 1 / (1 + flow.recovery * d), q = about_back_stress(p, theta, l);
+    // Where nothing flows d is 0, theta 1 and share 0, which leaves stress and back stress as they are, bit for bit.
     // Three halves of the flow direction over q: plastic strain = share (s - theta a), s the trial deviator.
-    const double share = yields[l] > 0 ? 1.5 * d / q : 0.0;
+    const double direction = 1.5 * d / q, share = yields[l] > 0 ? direction : 0.0;
     const double to_stress = 2.0 / 3.0 * three_g * share, to_back = 2.0 / 3.0 * C * theta * share;
     const double mean = (s[0][l] + s[1][l] + s[2][l]) / 3;
     double before = 0, after = 0;  // products of the back stress and the plastic strain
+#pragma GCC unroll 6
     for (int c = 0; c < 6; ++c) {
       const double deviator = s[c][l] - (c < 3 ? mean : 0.0), weight = c < 3 ? 1.0 : 2.0, back = a[c + 1][l];
       const double relative = deviator - theta * back, end = theta * back + to_back * relative;
       before += weight * share * back * relative;
       after += weight * share * end * relative;
-      a[c + 1][l] = yields[l] > 0 ? end : back;
-      s[c][l] = yields[l] > 0 ? s[c][l] - to_stress * relative : s[c][l];
+      a[c + 1][l] = end;
+      s[c][l] -= to_stress * relative;
     }
     const double size = radius[l] + 0.5 * flow.isotropic_modulus * d;
     const double work = size * d + 0.5 * (before + after);
-    plastic_work.v[0][l] = work > 0 ? yields[l] * work : 0.0;
-    a[0][l] += yields[l] > 0 ? d : 0.0;
+    plastic_work.v[0][l] = work > 0 ? work : 0.0;
+    a[0][l] += d;
   }
 }
 

@@ -22,15 +22,18 @@ inline PrincipalLanes principal(const Batch<6>& s) {
   PrincipalLanes p;
   LaneValues off[3];  // xy yz zx: between 0 and 1, 1 and 2, 2 and 0
   for (int i = 0; i < 3; ++i)
+#pragma GCC ivdep
     for (int l = 0; l < lanes; ++l) {
       p.value[i][l] = s.v[i][l], off[i][l] = s.v[i + 3][l];
       for (int j = 0; j < 3; ++j) p.axis[i][j][l] = i == j ? 1 : 0;
     }
   LaneValues turned;
   for (int sweep = 0; sweep < budget; ++sweep) {
+#pragma GCC ivdep
     for (int l = 0; l < lanes; ++l) turned[l] = 0;
     for (const auto& [a, b, c] : pairs) {
       LaneValues &between = off[a], &b_to_c = off[b], &c_to_a = off[c];
+#pragma GCC ivdep
       for (int l = 0; l < lanes; ++l) {
         const double aa = p.value[a][l], bb = p.value[b][l], ab = between[l];
         const double large = std::abs(ab) > negligible * (std::abs(aa) + std::abs(bb)) ? 1.0 : 0.0;
@@ -53,6 +56,7 @@ inline PrincipalLanes principal(const Batch<6>& s) {
       }
     }
     LaneValues any;
+#pragma GCC ivdep
     for (int l = 0; l < lanes; ++l) any[l] = turned[l] > 0 ? 1.0 : 0.0;
     if (!any_lane(any)) break;
   }

@@ -38,17 +38,20 @@ void falling_root(Function function, LaneValues& searching, LaneValues& low, Lan
   for (int i = 0; i < budget && any_lane(searching); ++i) {
     LaneValues value, slope;
     function(x, value, slope);
+#pragma GCC ivdep
     for (int l = 0; l < lanes; ++l) {
       const double go = searching[l], at = x[l];
       const double below = go * (value[l] > 0 ? 1.0 : 0.0), above = go - below;
-      low[l] = below > 0 ? at : low[l];
-      high[l] = above > 0 ? at : high[l];
-      const double newton = at - value[l] / slope[l], middle = 0.5 * (low[l] + high[l]);
+      const double least = low[l], most = high[l];
+      const double lower = below > 0 ? at : least, upper = above > 0 ? at : most;
+      low[l] = lower, high[l] = upper;
+      const double newton = at - value[l] / slope[l], middle = 0.5 * (lower + upper);
       const double close = std::abs(newton - at) <= last_step * at ? 1.0 : 0.0;
-      const double right_of_low = newton > low[l] ? 1.0 : 0.0, left_of_high = newton < high[l] ? 1.0 : 0.0;
+      const double right_of_low = newton > lower ? 1.0 : 0.0, left_of_high = newton < upper ? 1.0 : 0.0;
       const double inside = right_of_low * left_of_high;
-      const double next = inside > 0 ? newton : close > 0 ? at : middle;
-      const double narrow = high[l] - low[l] <= narrowest * high[l] ? 1.0 : 0.0;
+      const double halved = close > 0 ? at : middle;
+      const double next = inside > 0 ? newton : halved;
+      const double narrow = upper - lower <= narrowest * upper ? 1.0 : 0.0;
       x[l] = go > 0 ? next : at;
       searching[l] = go * (1 - close) * (1 - narrow);
     }

@@ -88,6 +88,7 @@ void OrthotropicElastic::update(const UpdateInput& input, Batch<6>& stress, Batc
   constexpr int from[6] = {0, 1, 2, 0, 1, 2}, to[6] = {0, 1, 2, 1, 2, 0};
   const auto &e = input.strain_increment.v, &axes = state.v;
   auto& s = stress.v;
+#pragma GCC ivdep
   for (int l = 0; l < lanes; ++l) {
     double n[3][3];  // rows: the axes
     for (int j = 0; j < 3; ++j) n[0][j] = axes[j][l], n[1][j] = axes[j + 3][l];

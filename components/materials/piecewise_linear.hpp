@@ -41,9 +41,11 @@ class PiecewiseLinear {
 
   /// The same for eight arguments, with the slope to the right.
   void evaluate(const LaneValues& at, LaneValues& value, LaneValues& slope) const {
+#pragma GCC ivdep
     for (int l = 0; l < lanes; ++l) value[l] = y_[0], slope[l] = 0;
     for (std::size_t i = 0; i < size(); ++i) {
       const double x = x_[i], y = y_[i], k = slope_[i];
+#pragma GCC ivdep
       for (int l = 0; l < lanes; ++l) {
         const double here = y + k * (at[l] - x);
         value[l] = at[l] >= x ? here : value[l];

@@ -15,6 +15,7 @@ void Soil::update(const UpdateInput& input, Batch<6>& stress, Batch<2>& state, B
   Batch<1> trial;
   von_mises(stress, trial);
   LaneValues before, after, end, slope, p_before, p_after;
+#pragma GCC ivdep
   for (int l = 0; l < lanes; ++l) {
     before[l] = state.v[1][l];
     end[l] = -log_of((*input.volume_ratio).v[0][l]);
@@ -23,6 +24,7 @@ void Soil::update(const UpdateInput& input, Batch<6>& stress, Batch<2>& state, B
   pressure.evaluate(before, p_before, slope);
   pressure.evaluate(after, p_after, slope);
   auto& s = stress.v;
+#pragma GCC ivdep
   for (int l = 0; l < lanes; ++l) {
     const double p = std::max(p_after[l] - K * (after[l] - end[l]), -tension_cutoff);
     const double strength = std::sqrt(3 * std::max(a0 + p * (a1 + p * a2), 0.0));

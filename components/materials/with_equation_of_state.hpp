@@ -59,6 +59,7 @@ struct WithEquationOfState {
     const auto &e = input.strain_increment.v, &b = before.v;
     auto& s = stress.v;
     const double least = state_law.least_pressure;
+#pragma GCC ivdep
     for (int l = 0; l < lanes; ++l) {
       const double mean_before = (b[0][l] + b[1][l] + b[2][l]) / 3, mean = (s[0][l] + s[1][l] + s[2][l]) / 3;
       double work = 0;
@@ -80,6 +81,7 @@ struct WithEquationOfState {
     PressureLaw law;
     state_law.evaluate(state.v[volume], law);
     const double G = strength.elasticity.shear_modulus();
+#pragma GCC ivdep
     for (int l = 0; l < lanes; ++l) {
       const double p = -(stress.v[0][l] + stress.v[1][l] + stress.v[2][l]) / 3, V = state.v[volume][l];
       const double K = (law.dA_dmu[l] + law.dB_dmu[l] * state.v[energy][l]) / V + V * law.B[l] * p;
