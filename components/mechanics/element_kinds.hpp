@@ -9,9 +9,6 @@
 
 namespace tenon {
 
-/// Empty if elements of this kind are computed, else what a user should know instead.
-std::string refusal(ElementKind kind);
-
 /// Chosen by kind, material and options, once. Throws Error(usage) if they do not fit.
 std::unique_ptr<ElementGroup> make_element_group(std::size_t block, const Mesh& mesh,
                                                  const MechanicsOptions::Block& description,

@@ -40,6 +40,37 @@ MechanicsOptions::Formulation read_formulation(const Value& value) {
   return value.text("formulation") == "full" ? Formulation::full : Formulation::automatic;
 }
 
+/// Of a block that consists of shells: from its own entry, or else from the component.
+ShellSection read_shell(const Value& own, const Value& all, const std::string& block, Diagnostics& diagnostics) {
+  ShellSection section;
+  const Value& from = own.has("shell") ? own : all;
+  if (!from.has("shell")) {
+    diagnostics.error(own.where(), fmt::format("block '{}' consists of shells, which have no thickness; give "
+                                               "'shell: {{thickness: ...}}'",
+                                               block));
+    return section;
+  }
+  const Value s = from.child("shell");
+  const SpaceTimeFunction thickness = s.field_function("thickness");
+  if (thickness.is_uniform() && !(thickness(0, {}) > 0))
+    diagnostics.error(s.where("thickness"), fmt::format("thickness: {:g} m is not positive", thickness(0, {})));
+  section.thickness_field = [thickness](const Vec3& x) { return thickness(0, x); };
+  section.points = s.has("points") ? static_cast<int>(s.integer("points")) : 0;
+  if (s.text("rule") == "lobatto") section.rule = ShellSection::Rule::lobatto;
+  if (section.rule == ShellSection::Rule::lobatto && section.points > 0 && section.points < 3)
+    diagnostics.error(s.where("points"), "points: the rule lobatto takes 3 to 10");
+  using Reference = ShellSection::Reference;
+  const std::string& reference = s.text("reference");
+  section.reference = reference == "top"      ? Reference::top
+                      : reference == "bottom" ? Reference::bottom
+                                              : Reference::middle;
+  if (s.has("offset")) {
+    section.reference = Reference::at, section.offset = s.real("offset");
+    if (s.given("reference")) diagnostics.error(s.where("offset"), "offset: give either it or 'reference'");
+  }
+  return section;
+}
+
 void read_blocks(const Value& value, const SceneReader& reader, const Materials& materials, MechanicsOptions& options) {
   std::map<std::string, Value> own;
   if (value.has("blocks"))
@@ -47,8 +78,6 @@ void read_blocks(const Value& value, const SceneReader& reader, const Materials&
   std::vector<std::string> names;
   for (const MeshSummary::Entry& entry : reader.mesh.blocks) {
     names.push_back(entry.name);
-    if (const std::string refused = refusal(entry.kind); !refused.empty())
-      reader.diagnostics.error(value.where("mesh"), fmt::format("mesh: block '{}' {}", entry.name, refused));
     const auto found = own.find(entry.name);
     if (found == own.end() && !value.has("material")) {
       reader.diagnostics.error(value.where(), fmt::format("block '{}' of the mesh has no material; give 'material' for "
@@ -58,7 +87,9 @@ void read_blocks(const Value& value, const SceneReader& reader, const Materials&
     }
     const Value& from = found == own.end() ? value : found->second;
     if (const MaterialDescription* material = find_material(from, materials, reader.diagnostics)) {
-      options.blocks.push_back({entry.name, *material, read_formulation(from)});
+      options.blocks.push_back({entry.name, *material, read_formulation(from), {}});
+      if (topology(entry.kind).dimension == 2)
+        options.blocks.back().shell = read_shell(from, value, entry.name, reader.diagnostics);
       const bool plastic = !std::holds_alternative<std::monostate>(material->plasticity);
       if (options.heat != HeatMode::none && plastic && !material->thermal)
         reader.diagnostics.error(

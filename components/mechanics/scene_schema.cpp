@@ -16,10 +16,25 @@ void add_formulation(Schema& s) {
            "automatic");
 }
 
+Schema shell_schema() {
+  Schema s("Section of a block of shells (quad4, tri3).");
+  s.field_function("thickness", "m", "Thickness; an expression in x, y, z is taken at the centre of each element.")
+      .required();
+  s.integer("points", "Integration points through the thickness; without it 3 for elastic materials, else 5.", "",
+            {1, 10});
+  s.choice("rule", {"gauss", "lobatto"}, "Where they lie: `lobatto` (3 points or more) has points on both faces.",
+           "gauss");
+  s.choice("reference", {"middle", "top", "bottom"},
+           "Where the nodes lie in the section; the top is where the right-hand normal points.", "middle");
+  s.quantity("offset", "m", "Instead of `reference`: distance of the middle surface from the nodes along the normal.");
+  return s;
+}
+
 Schema block_schema() {
   Schema s("Material of a block of the mesh.");
   s.text("material", "Name of a material.").required();
   add_formulation(s);
+  s.object("shell", shell_schema(), "Section, if the block consists of shells.");
   return s;
 }
 
@@ -126,6 +141,7 @@ Schema mechanics_schema() {
   s.text("mesh", "Name of a mesh.").required();
   s.text("material", "Material of every block that is not named under `blocks`.");
   add_formulation(s);
+  s.object("shell", shell_schema(), "Section of the blocks of shells that have none of their own.");
   s.named("blocks", block_schema(), "Materials block by block.");
   s.object("hourglass", hourglass_schema(), "Resistance to the zero-energy modes of the elements.");
   s.object("bulk_viscosity", viscosity_schema(), "Artificial pressure in shocks.");
