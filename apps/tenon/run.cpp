@@ -140,7 +140,7 @@ ExitCode run_scene(const Communicator& comm, const RunArguments& arguments, cons
                  version_text(),
                  wall,
                  history->greatest_energy_error(),
-                 simulation.stopped() ? "stopped on request" : "done"};
+                 simulation.ending()};
   report_run(simulation, facts, folder + "/summary.json");
   print_results(log, folder, simulation.stopped());
   return simulation.stopped() ? ExitCode::stopped : ExitCode::done;

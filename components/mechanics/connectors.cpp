@@ -73,8 +73,8 @@ Vec3 ConnectorForce::link_force(const Link& link, const Vec3& between, const Vec
 
 void ConnectorForce::add_forces(const LoadState& state, std::span<ForceRow> force) const {
   const bool spring = connector_.kind == Connector::Kind::spring;
-  remote_.pull(state.nodes.position(), position_);
-  if (!spring) remote_.pull(state.nodes.velocity(), velocity_);
+  remote_.pull<Vec3>(state.nodes.position(), position_);
+  if (!spring) remote_.pull<Vec3>(state.nodes.velocity(), velocity_);
   std::size_t next = 0;
   for (std::size_t i = 0; i < links_.size(); ++i) {
     const Link& link = links_[i];

@@ -81,6 +81,11 @@ void ElementGroup::follow(std::size_t batch, const Batch<1>& step, const Batch<1
   }
 }
 
+void ElementGroup::fill_padding_of(ElementValues& values) const {
+  for (LocalIndex e = size_; size_ > 0 && e < static_cast<LocalIndex>(batches()) * lanes; ++e)
+    value_of(values, e) = value_of(static_cast<const ElementValues&>(values), size_ - 1);
+}
+
 double ElementGroup::stress(LocalIndex element, int component) const {
   return points.mean_stress(element, component);
 }

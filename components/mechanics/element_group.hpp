@@ -101,6 +101,7 @@ class ElementGroup {
   virtual std::int64_t memory() const;
   /// Makes the padding equal to the last element, after values were set one by one.
   void fill_padding();
+  void fill_padding_of(ElementValues& values) const;
 
   LocalIndex size() const { return size_; }
   std::size_t block() const { return block_; }
@@ -117,6 +118,8 @@ class ElementGroup {
   virtual double thickness(LocalIndex) const { return 0; }
   bool alive(LocalIndex element) const { return dead.empty() || value_of(dead, element) == 0; }
 
+  /// Part of a rigid body: never advanced, and its mass is the body's.
+  bool rigid = false;
   MaterialPoints points;
   ElementValues mass;                                ///< kg
   ElementValues temperature;                         ///< K

@@ -80,6 +80,46 @@ struct Connector {
   std::string label;
 };
 
+/// Blocks that move as one rigid body.
+struct RigidBody {
+  enum class Rotation {
+    free,
+    fixed,
+    hinge,      ///< free about `axis`, which stays where it is
+    prescribed  ///< by `angle` about `axis`
+  };
+  std::vector<std::string> blocks;
+  std::optional<Vec3> velocity;  ///< of the pivot at the start, m/s
+  std::optional<Vec3> spin;      ///< at the start, rad/s
+  /// A point of the body that never moves, m. Else the pivot is the centre of mass.
+  std::optional<Vec3> joint;
+  std::array<std::optional<TimeFunction>, 3> prescribed_velocity;  ///< of the centre, m/s; constant 0: fixed
+  Rotation rotation = Rotation::free;
+  Vec3 axis{0, 0, 1};
+  TimeFunction angle;  ///< rad
+  std::string label;
+};
+
+/// Nodes that are bound to the faces nearest to them, as they lie at the start.
+struct TiedSet {
+  std::vector<std::string> node_sets, side_sets;
+  std::optional<double> tolerance;  ///< m; without it 5 % of the greatest face diagonal
+  std::string label;
+};
+
+/// Uniform or varying Cauchy stress at the start: xx yy zz xy yz zx, Pa.
+struct InitialStress {
+  std::vector<std::string> blocks;
+  std::array<SpaceTimeFunction, 6> stress;
+  std::string label;
+};
+
+/// Mass that elements get so that none asks for a smaller step.
+struct MassScaling {
+  double time_step = 0;  ///< s
+  double limit = 0.05;   ///< greatest added share of the mass of the whole body
+};
+
 struct LoadOptions {
   std::vector<BodyForce> body_forces;
   std::vector<NodalForce> nodal_forces;
@@ -88,6 +128,10 @@ struct LoadOptions {
   std::vector<NonReflecting> non_reflecting;
   std::vector<Connector> connectors;
   std::optional<RelaxationOptions> relaxation;
+  std::vector<RigidBody> rigid_bodies;
+  std::vector<TiedSet> ties;
+  std::vector<InitialStress> initial_stresses;
+  std::optional<MassScaling> mass_scaling;
 };
 
 }  // namespace tenon

@@ -79,11 +79,20 @@ void Loads::finish(const Mesh& mesh, const NodalState& nodes, const ElementGroup
       dashpots[n] = dashpots[n] + transverse_isotropic(c, connector.direction ? 0 : c, direction);
     }
   }
-  if (damped || !options_.non_reflecting.empty()) damping_row_ = row("damping_energy");
+  if (damped) damping_row_ = row("damping_energy");
   std::vector<NodalDamping::Entry> entries;
   for (std::size_t n = 0; n < size; ++n)
     if (trace(dashpots[n]) > 0 || trace(absorbing[n]) > 0)
       entries.push_back({static_cast<LocalIndex>(n), dashpots[n], absorbing[n]});
+  std::optional<Error> error;
+  for (const NodalDamping::Entry& entry : entries)
+    if (nodes.mass[static_cast<std::size_t>(entry.node)] == 0 && mesh.owns_node(entry.node) && !error)
+      error =
+          Error(ExitCode::usage,
+                fmt::format("dashpots and non_reflecting: node {} is tied or belongs to a rigid body and has no mass "
+                            "of its own; put the damper elsewhere",
+                            mesh.node_labels[static_cast<std::size_t>(entry.node)]));
+  mesh.comm.throw_if_any(error);
   damping_ = NodalDamping(options_.damping.mass, std::move(entries), nodes);
   if (damping_.damps_spin() && nodes.has_rotations()) damping_moment_.resize(size), spin_before_.resize(size);
   find_nodes(size);
@@ -111,8 +120,16 @@ void Loads::find_bounds(const Mesh& mesh, std::span<const double> inverse_mass) 
     std::vector<double> sums(inverse_mass.size());
     for (const ConnectorForce* force : forces) force->add_bounds(sums);
     double most = 0;
-    for (const LocalIndex n : mesh.owned_nodes)
-      most = std::max(most, sums[static_cast<std::size_t>(n)] * inverse_mass[static_cast<std::size_t>(n)]);
+    std::optional<Error> error;
+    for (const LocalIndex node : mesh.owned_nodes) {
+      const auto n = static_cast<std::size_t>(node);
+      if (sums[n] > 0 && inverse_mass[n] < 0 && !error)
+        error = Error(
+            ExitCode::usage,
+            fmt::format("springs and dashpots: node {} is tied; use a node of the face instead", mesh.node_labels[n]));
+      most = std::max(most, sums[n] * inverse_mass[n]);
+    }
+    mesh.comm.throw_if_any(error);
     return mesh.comm.max(most);
   };
   spring_frequency_squared_ = bound(springs_);
@@ -138,13 +155,13 @@ void Loads::apply(NodalState& nodes, const ElementGroups& groups, double time, d
 
 // Sees the sum of all other forces; its own go into rows that may hold explicit ones already.
 void Loads::apply_damping(NodalState& nodes, double kick) {
-  Row& damping = rows_[damping_row_];
-  Row* absorbed = options_.non_reflecting.empty() ? nullptr : &rows_[absorbed_row_];
+  Row* damping = damping_row_ ? &rows_[*damping_row_] : nullptr;
+  Row* absorbed = absorbed_row_ ? &rows_[*absorbed_row_] : nullptr;
   for (const NodalDamping::Entry& entry : damping_.entries()) {
     const auto n = static_cast<std::size_t>(entry.node);
     const NodalDamping::Forces f = damping_.forces(entry, nodes, kick);
     for (std::size_t c = 0; c < 3; ++c) {
-      damping.force[n].v[c] += f.damping[c];
+      if (damping) damping->force[n].v[c] += f.damping[c];
       if (absorbed) absorbed->force[n].v[c] += f.absorbing[c];
       nodes.force[n].v[c] -= f.damping[c] + f.absorbing[c];
     }
@@ -165,7 +182,7 @@ void Loads::book(const NodalState& nodes, double kick) {
       row.work[n] += 0.5 * kick * power(row.force[n], before_[n] + after[n]);
     }
   for (std::size_t n = 0; n < damping_moment_.size(); ++n)
-    rows_[damping_row_].work[n] += 0.5 * kick * power(damping_moment_[n], spin_before_[n] + nodes.spin()[n]);
+    rows_[*damping_row_].work[n] += 0.5 * kick * power(damping_moment_[n], spin_before_[n] + nodes.spin()[n]);
 }
 
 double Loads::work(std::size_t node) const {

@@ -65,7 +65,7 @@ class Loads {
   std::vector<Row> rows_;
   std::vector<const ConnectorForce*> springs_, dashpots_;
   NodalDamping damping_;
-  std::size_t damping_row_ = 0, absorbed_row_ = 0;
+  std::optional<std::size_t> damping_row_, absorbed_row_;
   std::vector<ForceRow> damping_moment_;                        // N m; empty unless nodes turn and are damped
   std::vector<Vec3> before_, spin_before_;                      // velocities before the kick
   double spring_frequency_squared_ = 0, explicit_damping_ = 0;  // 1/s^2, 1/s

@@ -16,10 +16,11 @@ Mechanics::Mechanics(std::string name, std::shared_ptr<const Mesh> mesh, Mechani
       conditions_(*mesh_, options_.motions, options_.walls),
       nodes_(mesh_->coordinates) {
   make_groups();
+  set_loads();
   sum_masses();
   set_temperatures();
+  set_constraints();
   follow_limit();
-  loads_ = std::make_unique<Loads>(*mesh_, options_.loads, groups_);
 }
 
 void Mechanics::initialize() {
@@ -59,16 +60,28 @@ void kick_vectors(std::span<Vec3> velocity, std::span<const ForceRow> force, std
 
 }  // namespace
 
-// Ghosts are replaced by what their owners find. Conditions correct v* and the work.
+// Ghosts are replaced by what their owners find. Conditions correct v* and the work; loads book theirs when the
+// velocities are final. Nodes of rigid bodies have the body's velocity before and after the kick, then that which takes
+// them to its next place.
 void Mechanics::kick(double dt) {
   const ScopedTimer timer(*phases_.update);
+  if (relaxation_ && relaxation_->begin(nodes_)) previous_dt_ = 0;
   const double kick = 0.5 * (previous_dt_ + dt);
-  if (!loads_->empty()) loads_->apply(nodes_, groups_, time());
+  if (!rigid_->empty()) rigid_->set_rates(nodes_);
+  if (!loads_->empty()) loads_->apply(nodes_, groups_, time(), kick);
+  if (!ties_->empty()) ties_->gather(nodes_);
+  if (!rigid_->empty()) rigid_->kick(nodes_, time(), kick, dt);
   kick_vectors(nodes_.velocity(), nodes_.force, nodes_.inverse_mass, kick, nodes_.internal_work);
   if (nodes_.has_rotations())
     kick_vectors(nodes_.spin(), nodes_.moment, nodes_.inverse_inertia, kick, nodes_.internal_work);
   conditions_.apply(nodes_, time(), kick, dt);
+  if (!rigid_->empty()) rigid_->set_rates(nodes_);
+  if (!ties_->empty()) ties_->follow(nodes_);
   if (!loads_->empty()) loads_->book(nodes_, kick);
+  if (relaxation_) relaxation_->watch(nodes_, *loads_, kick, previous_dt_, dt, time());
+  if (rigid_->empty()) return;
+  rigid_->move(nodes_, dt);
+  if (!ties_->empty()) ties_->follow(nodes_);
 }
 
 void Mechanics::refresh_ghosts() {
@@ -97,11 +110,12 @@ void Mechanics::compute_forces(double dt) {
   local_least_ = {std::numeric_limits<double>::infinity(), no_index};
   for (int pass = 0; pass + 1 < passes_; ++pass)
     for (const auto& group : groups_) {
-      if (pass + 1 >= group->passes()) continue;
+      if (group->rigid || pass + 1 >= group->passes()) continue;
       group->prepare(pass, nodes_.arrays(), dt);
       exchange_nodal_values(*group);
     }
   for (std::size_t g = 0; g < groups_.size(); ++g) {
+    if (groups_[g]->rigid) continue;
     const GroupStep found = groups_[g]->advance(nodes_.arrays(), dt);
     const double shrink = std::min(local_least_.shrink, found.shrink);
     if (found.step < local_least_.step) local_least_ = found, local_least_group_ = g;
@@ -128,7 +142,7 @@ void Mechanics::choose_step() {
   if (estimate_ < options_.time_step.collapse * first_estimate_) fail(estimate_);
   limit_ = std::max(estimate_, verified_step_ * least[1]);
   if (assembled_ && search_is_due()) search_step();
-  stable_step_ = options_.time_step.scale * limit_;
+  stable_step_ = std::min(options_.time_step.scale * loads_->stable_step(limit_), rigid_->stable_step());
   if (options_.time_step.maximum) stable_step_ = std::min(stable_step_, *options_.time_step.maximum);
   if (options_.time_step.fixed) stable_step_ = *options_.time_step.fixed;
   if (stable_step_ > 1.02 * limit_ && warnings_.empty())

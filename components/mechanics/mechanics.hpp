@@ -8,10 +8,14 @@
 
 #include "components/mechanics/assembled_step.hpp"
 #include "components/mechanics/element_group.hpp"
+#include "components/mechanics/kinetic_relaxation.hpp"
 #include "components/mechanics/loads.hpp"
+#include "components/mechanics/mass_scaling.hpp"
 #include "components/mechanics/mechanics_options.hpp"
 #include "components/mechanics/nodal_conditions.hpp"
 #include "components/mechanics/nodal_state.hpp"
+#include "components/mechanics/rigid_bodies.hpp"
+#include "components/mechanics/ties.hpp"
 #include "framework/simulation/component.hpp"
 
 namespace tenon {
@@ -33,6 +37,8 @@ class Mechanics final : public Component {
 
   void initialize() override;
   double time_step() override { return stable_step_; }
+  bool finished() const override { return relaxation_ && relaxation_->converged(); }
+  std::string ending() const override { return relaxation_ ? relaxation_->report() : ""; }
   StepLimiter limiter() override;
   void advance(double dt) override;
 
@@ -56,12 +62,18 @@ class Mechanics final : public Component {
   std::span<const double> nodal_mass() const { return nodes_.mass; }
   /// Internal forces at the present positions (resisting), N; complete on owned nodes.
   std::span<const ForceRow> internal_force() const { return nodes_.force; }
+  const RigidBodies& rigid_bodies() const { return *rigid_; }
+  /// Null unless the options ask for it.
+  const KineticRelaxation* relaxation() const { return relaxation_.get(); }
 
  private:
   // Set-up.
   void make_groups();
   void sum_masses();
   void set_temperatures();
+  void set_loads();
+  void set_constraints();
+  void refuse_misfits() const;
   void follow_limit();
   void set_velocities();
   // Phases of a step.
@@ -92,6 +104,10 @@ class Mechanics final : public Component {
   NodalState nodes_;
   std::vector<std::unique_ptr<ElementGroup>> groups_;  // as the blocks of the mesh
   std::unique_ptr<Loads> loads_;
+  std::unique_ptr<KineticRelaxation> relaxation_;  // if asked for
+  std::unique_ptr<RigidBodies> rigid_;
+  std::unique_ptr<Ties> ties_;
+  AddedMass added_mass_;
 
   double previous_dt_ = 0;  // of the last half step
   double stable_step_ = 0;  // what time_step() says

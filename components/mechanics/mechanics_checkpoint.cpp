@@ -49,6 +49,16 @@ void Mechanics::save(CheckpointWriter& file) {
     node_array("boundary_work", 1, [&](std::size_t n, std::size_t) { return conditions_.boundary_work()[n]; });
   if (conditions_.has_walls())
     node_array("wall_work", 1, [&](std::size_t n, std::size_t) { return conditions_.wall_work()[n]; });
+  rigid_->save(file, key("rigid"));
+  if (relaxation_) {
+    const KineticRelaxation::State state = relaxation_->state();
+    file.scalar(key("relaxation.energy"), state.energy);
+    file.scalar(key("relaxation.energy_before"), state.energy_before);
+    file.integer(key("relaxation.turning"), state.turning);
+    file.integer(key("relaxation.steps"), state.steps);
+    file.integer(key("relaxation.peaks"), state.peaks);
+    node_array("relaxation_energy", 1, [&](std::size_t n, std::size_t) { return relaxation_->taken()[n]; });
+  }
   for (const Loads::Row& row : loads_->rows())
     node_array(row.name, 1, [&](std::size_t n, std::size_t) { return row.work[n]; });
   for (const auto& group : groups_) {
@@ -95,6 +105,14 @@ void Mechanics::load(const CheckpointReader& file) {
                [&](std::size_t n, std::size_t) -> double& { return conditions_.boundary_work()[n]; });
   if (conditions_.has_walls())
     node_array("wall_work", 1, [&](std::size_t n, std::size_t) -> double& { return conditions_.wall_work()[n]; });
+  rigid_->load(file, key("rigid"));
+  if (relaxation_) {
+    relaxation_->restore({file.scalar(key("relaxation.energy")), file.scalar(key("relaxation.energy_before")),
+                          file.integer(key("relaxation.turning")), file.integer(key("relaxation.steps")),
+                          file.integer(key("relaxation.peaks"))});
+    node_array("relaxation_energy", 1,
+               [&](std::size_t n, std::size_t) -> double& { return relaxation_->taken()[n]; });
+  }
   for (Loads::Row& row : loads_->rows())
     node_array(row.name, 1, [&](std::size_t n, std::size_t) -> double& { return row.work[n]; });
   for (const auto& group : groups_) {

@@ -36,6 +36,7 @@ void Mechanics::energies(std::vector<EnergyTerm>& terms) {
     if (conditions_.has_walls()) wall.local.add(conditions_.wall_work()[i]);
     for (const Loads::Row& row : loads_->rows()) internal.local.add(row.work[i]);
   }
+  if (mesh_->comm.rank() == 0) kinetic.local.add(rigid_->kinetic_energy());
   bool has_plasticity = false, can_fail = false;
   for (const auto& group : groups_)
     has_plasticity = has_plasticity || group->model().plastic(), can_fail = can_fail || group->model().damage() >= 0;
@@ -52,6 +53,14 @@ void Mechanics::energies(std::vector<EnergyTerm>& terms) {
   if (can_fail) terms.push_back(std::move(eroded));
   if (conditions_.has_motions()) terms.push_back(std::move(boundary));
   if (conditions_.has_walls()) terms.push_back(std::move(wall));
+  if (rigid_->has_prescribed()) {
+    EnergyTerm& term = terms.emplace_back(EnergyTerm{"rigid_body_work", Role::supplied, {}});
+    if (mesh_->comm.rank() == 0) term.local.add(rigid_->work());
+  }
+  if (relaxation_) {
+    EnergyTerm& term = terms.emplace_back(EnergyTerm{"relaxation_energy", Role::stored, {}});
+    for (const LocalIndex n : mesh_->owned_nodes) term.local.add(relaxation_->taken()[static_cast<std::size_t>(n)]);
+  }
   for (const Loads::Row& row : loads_->rows()) {
     EnergyTerm& term = terms.emplace_back(EnergyTerm{row.name, row.role, {}});
     for (const LocalIndex n : mesh_->owned_nodes) term.local.add(row.sign * row.work[static_cast<std::size_t>(n)]);

@@ -129,6 +129,8 @@ std::vector<HistoryValue> Mechanics::history_values() {
   values.push_back({"max_von_mises", Reduce::max, von_mises});
   values.push_back({"max_temperature", Reduce::max, temperature});
   values.push_back({"max_displacement", Reduce::max, moved});
+  if (options_.loads.mass_scaling) values.push_back({"added_mass", Reduce::max, added_mass_.added});
+  if (relaxation_) values.push_back({"relaxation_residual", Reduce::max, relaxation_->residual()});
   if (can_fail) values.push_back({"failed_elements", Reduce::sum, dead});
   return values;
 }

@@ -26,6 +26,8 @@ void Mechanics::make_groups() {
                       fmt::format("{}: {} has no positive volume; check the mesh", name(), describe(group, e)));
     for (const int owner : block.owners) owned_elements_ += owner == mesh_->comm.rank() ? 1 : 0;
     const std::optional<ThermalProperties>& thermal = found->material.thermal;
+    for (const RigidBody& body : options_.loads.rigid_bodies)
+      group.rigid = group.rigid || std::ranges::find(body.blocks, block.name) != body.blocks.end();
     if (options_.heat == HeatMode::exported) group.heat_given.resize(group.mass.size());
     if (options_.heat == HeatMode::adiabatic && thermal)
       group.heating = thermal->taylor_quinney / thermal->specific_heat;
@@ -41,7 +43,8 @@ void Mechanics::make_groups() {
 }
 
 void Mechanics::sum_masses() {
-  for (const auto& group : groups_) group->add_masses({nodes_.mass, nodes_.inertia});
+  for (const auto& group : groups_)
+    if (!group->rigid) group->add_masses({nodes_.mass, nodes_.inertia});
   const auto invert = [](const std::vector<double>& from, std::vector<double>& to) {
     for (std::size_t n = 0; n < from.size(); ++n) to[n] = from[n] > 0 ? 1 / from[n] : 0;
   };
@@ -54,8 +57,57 @@ void Mechanics::follow_limit() {
   const TimeStepOptions& options = options_.time_step;
   if (options.fixed || options.estimate == TimeStepOptions::Estimate::element) return;
   if (!std::ranges::all_of(groups_, [](const auto& group) { return group->has_product(); })) return;
+  if (!ties_->empty() || !rigid_->empty()) return;  // masses that are not their nodes' own
   assembled_ = std::make_unique<AssembledStep>(*mesh_, nodes_);
   for (const auto& group : groups_) group->follow_limit();
+}
+
+// Body forces count the true masses; scaled ones only resist.
+void Mechanics::set_loads() {
+  const LoadOptions& options = options_.loads;
+  for (const InitialStress& initial : options.initial_stresses) set_initial_stress(*mesh_, initial, groups_);
+  loads_ = std::make_unique<Loads>(*mesh_, options, groups_);
+  if (!options.mass_scaling) return;
+  if (options_.heat == HeatMode::adiabatic)
+    throw Error(ExitCode::usage, name() +
+                                     ": mass_scaling changes the heat capacity of elements, which heat: adiabatic "
+                                     "needs; use one of them, or heat: exported");
+  added_mass_ = scale_masses(*mesh_, *options.mass_scaling, options_.time_step.scale, groups_, nodes_);
+  warnings_.push_back(fmt::format("{}: mass scaling added {:.4g} kg, {:.3g} % of the mass of the body, in {} elements",
+                                  name(), added_mass_.added, 100 * added_mass_.added / added_mass_.before,
+                                  added_mass_.elements));
+}
+
+void Mechanics::set_constraints() {
+  const LoadOptions& options = options_.loads;
+  ties_ = std::make_unique<Ties>(*mesh_, options.ties);
+  if (!ties_->empty()) ties_->move_mass(nodes_);
+  rigid_ = std::make_unique<RigidBodies>(*mesh_, options.rigid_bodies, groups_, nodes_);
+  refuse_misfits();
+  std::vector<double> inverse_mass = nodes_.inverse_mass;
+  for (const LocalIndex n : ties_->nodes()) inverse_mass[static_cast<std::size_t>(n)] = -1;  // none of their own
+  rigid_->bound_inverse_mass(inverse_mass);
+  loads_->finish(*mesh_, nodes_, groups_, inverse_mass);
+  if (options.relaxation) relaxation_ = std::make_unique<KineticRelaxation>(*options.relaxation, *mesh_);
+}
+
+void Mechanics::refuse_misfits() const {
+  if (!rigid_->empty() && options_.loads.relaxation)
+    throw Error(ExitCode::usage, name() + ": dynamic_relaxation does not know rigid bodies; fix the nodes instead");
+  std::optional<Error> error;
+  for (const PrescribedMotion& motion : options_.motions)
+    for (const LocalIndex n : nodes_of_sets(*mesh_, motion.node_sets, motion.label))
+      if (!rigid_->empty() && rigid_->holds(n) && !error)
+        error = Error(ExitCode::usage,
+                      fmt::format("{}: node {} belongs to a rigid body; prescribe the motion of the body instead",
+                                  motion.label, mesh_->node_labels[static_cast<std::size_t>(n)]));
+  for (const LocalIndex n : ties_->nodes())
+    if (!rigid_->empty() && rigid_->holds(n) && !error)
+      error = Error(ExitCode::usage,
+                    fmt::format("tied: node {} belongs to a rigid body and cannot follow a face; tie the other part to "
+                                "the body",
+                                mesh_->node_labels[static_cast<std::size_t>(n)]));
+  mesh_->comm.throw_if_any(error);
 }
 
 void Mechanics::set_temperatures() {
@@ -73,7 +125,7 @@ void Mechanics::set_velocities() {
   for (const InitialVelocity& given : options_.initial_velocities) {
     const auto set = [&](LocalIndex node) {
       const auto n = static_cast<std::size_t>(node);
-      if (nodes_.mass[n] == 0) return;
+      if (nodes_.mass[n] == 0 && (rigid_->empty() || !rigid_->holds(node))) return;
       const Vec3 r = mesh_->coordinates[n] - given.centre;
       for (std::size_t i = 0; i < 3; ++i)
         velocity[n][i] = given.velocity[i] + given.gradient[3 * i] * r[0] + given.gradient[3 * i + 1] * r[1] +
@@ -95,6 +147,8 @@ void Mechanics::set_velocities() {
   for (std::size_t n = 0; n < nodes_.size() && options_.initial_velocity_function; ++n)
     if (nodes_.mass[n] > 0) velocity[n] = velocity[n] + options_.initial_velocity_function(mesh_->coordinates[n]);
   conditions_.start(velocity, time());
+  if (!rigid_->empty()) rigid_->start(nodes_, time());
+  if (!ties_->empty()) ties_->follow(nodes_);
   refresh_ghosts();
 }
 

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "components/mechanics/rigid_inertia.hpp"
+
 namespace tenon {
 
 std::vector<LocalIndex> nodes_of_sets(const Mesh& mesh, const std::vector<std::string>& sets,
@@ -39,7 +41,12 @@ NodalLoad::NodalLoad(const Mesh& mesh, const BodyForce& force, const ElementGrou
   const auto size = static_cast<std::size_t>(mesh.nodes());
   std::vector<double> mass(size), inertia(size);
   for (const auto& group : groups)
-    if (wanted(group->elements())) group->add_masses({mass, inertia});
+    if (wanted(group->elements())) {
+      if (group->rigid)
+        add_consistent_masses(*group, mesh.coordinates, mass);
+      else
+        group->add_masses({mass, inertia});
+    }
   for (std::size_t n = 0; n < size; ++n) {
     if (!(mass[n] > 0)) continue;
     nodes_.push_back(static_cast<LocalIndex>(n));

@@ -13,7 +13,8 @@ class NodalLoad final : public Load {
   /// Collective. A force on node sets.
   NodalLoad(const Mesh& mesh, const NodalForce& force);
   /// Collective. An acceleration field on the mass of blocks. The mass that counts is that of the elements as
-  /// described, without what mass scaling adds.
+  /// described, without what mass scaling adds; in rigid blocks
+  /// shares keep the centre of mass.
   NodalLoad(const Mesh& mesh, const BodyForce& force, const ElementGroups& groups);
 
   std::vector<LocalIndex> nodes() const override { return nodes_; }

@@ -10,19 +10,20 @@
 
 namespace tenon {
 
-/// Brings vectors of chosen nodes, by global id, from their owners: one message per neighbour.
+/// Brings values of chosen nodes, by global id, from their owners: one message per neighbour.
 class RemoteNodes {
  public:
   RemoteNodes() = default;
   /// Collective. Each rank chooses its own; an id may come more than once.
   RemoteNodes(const Mesh& mesh, std::span<const GlobalId> wanted, std::string name);
   /// Collective. Values (of all local nodes; owned ones count) into one place per wanted node.
-  void pull(std::span<const Vec3> local, std::span<Vec3> wanted) const;
-  std::size_t size() const { return size_; }
+  template <typename T>
+  void pull(std::span<const T> local, std::span<T> wanted) const {
+    plan_.forward<T>(local, wanted);
+  }
 
  private:
   ExchangePlan plan_;
-  std::size_t size_ = 0;
 };
 
 }  // namespace tenon

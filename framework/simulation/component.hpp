@@ -80,6 +80,10 @@ class Component {
   /// The greatest step that the component may take now, s; the same on every rank. Infinity if it has no limit.
   virtual double time_step() = 0;
   virtual StepLimiter limiter() = 0;
+  /// Local. True once nothing more will happen: the run ends early. The same on every rank.
+  virtual bool finished() const { return false; }
+  /// Local. What a user should know about how the run ended, if anything; the same on every rank.
+  virtual std::string ending() const { return ""; }
   /// Advances by dt <= time_step() to time() + dt. Throws Error(unstable) or Error(geometry) on all ranks together.
   virtual void advance(double dt) = 0;
 

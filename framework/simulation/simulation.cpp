@@ -126,6 +126,18 @@ void Simulation::run() {
   }
 }
 
+bool Simulation::done() const {
+  if (end_time_ - time_ <= 1e-12 * (end_time_ - start_time_)) return true;
+  return std::any_of(components_.begin(), components_.end(), [](const auto& c) { return c->finished(); });
+}
+
+std::string Simulation::ending() const {
+  std::string text = stopped_ ? "stopped on request" : "done";
+  for (const auto& component : components_)
+    if (const std::string what = component->ending(); !what.empty()) text += "; " + component->name() + ": " + what;
+  return text;
+}
+
 void Simulation::step() {
   if (steps_ >= maximum_steps_)
     throw Error(

@@ -57,7 +57,10 @@ class Simulation {
   /// Collective. Steps until done or until a stop is requested. If a step throws, observers keep what they can first.
   void run();
 
-  bool done() const { return end_time_ - time_ <= 1e-12 * (end_time_ - start_time_); }
+  /// At the end time, or a component has nothing more to do.
+  bool done() const;
+  /// "done", "stopped on request", and what the components say.
+  std::string ending() const;
   /// Asked after every step, collectively; must outlive the run.
   void watch(StopRequest& stop) { stop_ = &stop; }
   /// True once a stop was requested: no step follows.

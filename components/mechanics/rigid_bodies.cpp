@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "components/mechanics/rigid_bodies.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "components/mechanics/nodal_damping.hpp"
+
+namespace tenon {
+
+using Rotation = RigidBody::Rotation;
+
+namespace {
+
+bool has_axis(const RigidBody& options) {
+  return options.rotation == Rotation::hinge || options.rotation == Rotation::prescribed;
+}
+
+}  // namespace
+
+Vec3 RigidBodies::spin(const Body& body) const {
+  if (has_axis(body.options)) return body.rate * body.options.axis;
+  return body.options.rotation == Rotation::fixed ? Vec3{} : angular_velocity(body.inertia, body.state);
+}
+
+Vec3 RigidBodies::velocity_at(const Body& body, const Vec3& place) const {
+  return body.state.velocity + cross(spin(body), place - body.state.pivot);
+}
+
+void RigidBodies::bound_inverse_mass(std::span<double> inverse_mass) const {
+  for (const Held& held : held_) {
+    const Body& body = bodies_[static_cast<std::size_t>(held.body)];
+    const Vec3 arm = mesh_.coordinates[static_cast<std::size_t>(held.node)] - body.reference_pivot;
+    inverse_mass[static_cast<std::size_t>(held.node)] =
+        1 / body.inertia.mass + dot(arm, arm) * trace(body.inertia.inverse);
+  }
+}
+
+double RigidBodies::stable_step() const {
+  double fastest = 0;
+  for (const Body& body : bodies_) fastest = std::max(fastest, norm(spin(body)));
+  return fastest > 0 ? greatest_turn / fastest : std::numeric_limits<double>::infinity();
+}
+
+void RigidBodies::set_rates(NodalState& nodes) const {
+  for (const Held& held : held_) {
+    const auto n = static_cast<std::size_t>(held.node);
+    const Body& body = bodies_[static_cast<std::size_t>(held.body)];
+    nodes.velocity()[n] = velocity_at(body, nodes.position()[n]);
+    if (nodes.has_rotations()) nodes.spin()[n] = spin(body);
+  }
+}
+
+void RigidBodies::kick(NodalState& nodes, double time, double kick, double dt) {
+  for (ExactSum& sum : sums_) sum.clear();
+  for (std::size_t i = 0; i < held_.size(); ++i) {
+    const auto n = static_cast<std::size_t>(held_[i].node);
+    const auto b = static_cast<std::size_t>(held_[i].body);
+    const Vec3 f{-nodes.force[n].v[0], -nodes.force[n].v[1], -nodes.force[n].v[2]};
+    const Vec3 moment = cross(nodes.position()[n] - bodies_[b].state.pivot, f);
+    rates_before_[i] = velocity_at(bodies_[b], nodes.position()[n]);
+    for (std::size_t c = 0; c < 3; ++c) {
+      sums_[6 * b + c].add(f[c]), sums_[6 * b + 3 + c].add(moment[c]);
+      if (nodes.has_rotations()) sums_[6 * b + 3 + c].add(-nodes.moment[n].v[c]);
+    }
+  }
+  mesh_.comm.sum(sums_, totals_);
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    const double* t = totals_.data() + 6 * b;
+    bodies_[b].spin_before = spin(bodies_[b]);
+    kick_body(bodies_[b], {t[0], t[1], t[2]}, {t[3], t[4], t[5]}, time, kick, dt);
+  }
+  for (std::size_t i = 0; i < held_.size(); ++i) {
+    const auto n = static_cast<std::size_t>(held_[i].node);
+    const Body& body = bodies_[static_cast<std::size_t>(held_[i].body)];
+    const Vec3 sum = rates_before_[i] + velocity_at(body, nodes.position()[n]);
+    const double* f = nodes.force[n].v;
+    nodes.internal_work[n] += 0.5 * kick * (f[0] * sum[0] + f[1] * sum[1] + f[2] * sum[2]);
+    nodes.force[n] = {};
+    if (!nodes.has_rotations()) continue;
+    const Vec3 turn = body.spin_before + spin(body);
+    const double* m = nodes.moment[n].v;
+    nodes.internal_work[n] += 0.5 * kick * (m[0] * turn[0] + m[1] * turn[1] + m[2] * turn[2]);
+    nodes.moment[n] = {};
+  }
+}
+
+void RigidBodies::kick_body(Body& body, const Vec3& force, const Vec3& moment, double time, double kick, double dt) {
+  RigidState& s = body.state;
+  for (std::size_t c = 0; c < 3 && !body.options.joint; ++c) {
+    const double before = s.velocity[c], impulse = kick * force[c];
+    if (const auto& given = body.options.prescribed_velocity[c]) {
+      s.velocity[c] = (*given)(time + 0.5 * dt);
+      body.work += 0.5 * (body.inertia.mass * (s.velocity[c] - before) - impulse) * (before + s.velocity[c]);
+    } else {
+      s.velocity[c] += impulse / body.inertia.mass;
+    }
+  }
+  if (body.options.rotation == Rotation::free) s.momentum = s.momentum + kick * moment;
+  if (!has_axis(body.options)) return;
+  const double before = body.rate, impulse = kick * dot(moment, body.options.axis);
+  if (body.options.rotation == Rotation::hinge) {
+    body.rate += impulse / body.axial_inertia;
+  } else {
+    body.rate = (body.options.angle(time + dt) - s.angle) / dt;
+    body.work += 0.5 * (body.axial_inertia * (body.rate - before) - impulse) * (before + body.rate);
+  }
+}
+
+void RigidBodies::move(NodalState& nodes, double dt) {
+  for (Body& body : bodies_) {
+    RigidState& s = body.state;
+    s.pivot = s.pivot + dt * s.velocity;
+    if (body.options.rotation == Rotation::free) spin_freely(body.inertia, s, dt);
+    if (!has_axis(body.options)) continue;
+    s.angle += dt * body.rate;
+    s.orientation = rotation_by(s.angle * body.options.axis);
+  }
+  for (const Held& held : held_) {
+    const auto n = static_cast<std::size_t>(held.node);
+    const Body& body = bodies_[static_cast<std::size_t>(held.body)];
+    const Vec3 place = body.state.pivot + rotate(body.state.orientation, mesh_.coordinates[n] - body.reference_pivot);
+    nodes.velocity()[n] = (1 / dt) * (place - nodes.position()[n]);
+  }
+}
+
+double RigidBodies::kinetic_energy() const {
+  double sum = 0;
+  for (const Body& body : bodies_) {
+    const Vec3 v = body.state.velocity;
+    sum += 0.5 * body.inertia.mass * (body.options.joint ? 0 : dot(v, v));
+    if (body.options.rotation == Rotation::free)
+      sum += 0.5 * dot(angular_velocity(body.inertia, body.state), body.state.momentum);
+    if (has_axis(body.options)) sum += 0.5 * body.axial_inertia * body.rate * body.rate;
+  }
+  return sum;
+}
+
+double RigidBodies::work() const {
+  double sum = 0;
+  for (const Body& body : bodies_) sum += body.work;
+  return sum;
+}
+
+bool RigidBodies::has_prescribed() const {
+  return std::ranges::any_of(bodies_, [](const Body& body) {
+    return body.options.rotation == Rotation::prescribed ||
+           std::ranges::any_of(body.options.prescribed_velocity, [](const auto& f) { return f.has_value(); });
+  });
+}
+
+std::vector<double*> RigidBodies::numbers(Body& body) {
+  RigidState& s = body.state;
+  std::vector<double*> all{&s.angle, &body.rate, &body.work};
+  for (Vec3* v : {&s.pivot, &s.velocity, &s.momentum})
+    for (double& x : *v) all.push_back(&x);
+  for (double& x : s.orientation) all.push_back(&x);
+  return all;
+}
+
+void RigidBodies::save(CheckpointWriter& file, const std::string& prefix) const {
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    Body copy = bodies_[b];
+    const std::vector<double*> values = numbers(copy);
+    for (std::size_t i = 0; i < values.size(); ++i) file.scalar(fmt::format("{}.{}.{}", prefix, b, i), *values[i]);
+  }
+}
+
+void RigidBodies::load(const CheckpointReader& file, const std::string& prefix) {
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    const std::vector<double*> values = numbers(bodies_[b]);
+    for (std::size_t i = 0; i < values.size(); ++i) *values[i] = file.scalar(fmt::format("{}.{}.{}", prefix, b, i));
+  }
+}
+
+}  // namespace tenon
