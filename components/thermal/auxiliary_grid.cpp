@@ -118,7 +118,8 @@ RectilinearGrid auxiliary_grid(const Mesh& mesh) {
     for (const double w : width[axis]) cells += 1 / w;
     mean[axis] = (extent.high[axis] - extent.low[axis]) * slabs / cells;
   }
-  const double narrow = 2 * std::min({mean[0], mean[1], mean[2]});
+  constexpr double coarser = 2.5;  // than the mesh: of 2, 2.5 and 3 the quickest in the whole
+  const double narrow = coarser * std::min({mean[0], mean[1], mean[2]});
   RectilinearGrid grid;
   for (double wider = 1;; wider *= 1.25) {
     for (std::size_t axis = 0; axis < 3; ++axis)

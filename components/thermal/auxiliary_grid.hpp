@@ -37,9 +37,9 @@ struct RectilinearGrid {
   void locate(std::size_t axis, double x, LocalIndex& cell, double& t) const;
 };
 
-/// Collective. Cells of about twice the size of the elements, in each slab of the mesh and across each axis by itself;
-/// where elements are longer across one axis than across another, no wider than need be. At most two points per node.
-/// Made of integers summed over the ranks: the same on any number of them.
+/// Collective. Cells of about two and a half times the size of the elements, in each slab of the mesh and across each
+/// axis by itself; where elements are longer across one axis than across another, no wider than need be. At most two
+/// points per node. Made of integers summed over the ranks: the same on any number of them.
 RectilinearGrid auxiliary_grid(const Mesh& mesh);
 
 }  // namespace tenon::thermal

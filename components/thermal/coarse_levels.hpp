@@ -17,10 +17,13 @@ struct Chebyshev {
   static constexpr double range = 5;
   explicit Chebyshev(double greatest = 1)
       : theta(0.5 * greatest * (1 + 1 / range)), delta(0.5 * greatest * (1 - 1 / range)) {}
+  /// What to take for the greatest eigenvalue, from a power iteration and the greatest sum of a row.
+  static double bound(double power, double row);
   double theta, delta;
 };
 
-/// Local and serial: the same input gives the same bits on every rank.
+/// Local and serial: the same input gives the same bits on every rank. Matrices are kept in single precision (half the
+/// memory traffic, and a preconditioner needs no more); all sums are in double.
 class CoarseLevels {
  public:
   /// `matrix`: symmetric, positive semi-definite, over `points` (numbers in `grid`, ascending). Coarser matrices are
@@ -33,14 +36,14 @@ class CoarseLevels {
 
  private:
   struct Level {
-    SparseMatrix<double> matrix, to_coarse, from_coarse;
+    SparseMatrix<float> matrix, to_coarse, from_coarse;
     std::vector<double> inverse_diagonal, right_side, x, rest, change;
     Chebyshev smoother;
   };
-  void add_level(SparseMatrix<double> matrix);
+  void add_level(const SparseMatrix<double>& matrix);
   void cycle(std::size_t level);
   static void smooth(Level& level, bool from_zero);
-  void factor();
+  void factor(const SparseMatrix<double>& coarsest);
   void solve_directly(Level& level) const;
 
   std::vector<Level> levels_;

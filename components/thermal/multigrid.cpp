@@ -45,11 +45,12 @@ Multigrid::Multigrid(const Mesh& mesh) : mesh_(mesh), grid_(auxiliary_grid(mesh)
 }
 
 void Multigrid::build(const HeatSystem& system) {
+  links_.assign(system.matrix.values().begin(), system.matrix.values().end());
   find_points(system);
   int exponent = 0;
-  const SparseMatrix<std::int64_t> local = galerkin(system, exponent);
-  levels_.build(grid_, points_, gathered(local, exponent));
-  smoother_ = Chebyshev(greatest_eigenvalue(system));
+  SparseMatrix<std::int64_t> upper = galerkin(system, exponent);
+  levels_.build(grid_, points_, gathered(std::move(upper), exponent));
+  smoother_ = Chebyshev(Chebyshev::bound(power_iteration(system), greatest_row(system)));
   factor_ = system.factor;
   built_ = true;
 }
@@ -75,14 +76,22 @@ void Multigrid::find_points(const HeatSystem& system) {
     points_.push_back(static_cast<LocalIndex>(p));
     most_nodes_ = std::max(most_nodes_, nodes[p]);
   }
+  interpolate(free, number);
+  coarse_.assign(points_.size(), 0.0);
+  coarse_solution_ = coarse_;
+  exact_.assign(points_.size(), 0);
+}
+
+void Multigrid::interpolate(std::span<const double> free, std::span<const LocalIndex> number) {
   interpolation_ = {};
   interpolation_.columns = static_cast<LocalIndex>(points_.size());
-  SparseMatrix<double> owned;
+  SparseMatrix<float> owned;
   owned.columns = interpolation_.columns;
   for (std::size_t n = 0; n < free.size(); ++n) {
     if (free[n] > 0)
-      grid_.hats(mesh_.coordinates[n],
-                 [&](LocalIndex p, double w) { interpolation_.add(number[static_cast<std::size_t>(p)], w); });
+      grid_.hats(mesh_.coordinates[n], [&](LocalIndex p, double w) {
+        interpolation_.add(number[static_cast<std::size_t>(p)], static_cast<float>(w));
+      });
     interpolation_.end_row();
   }
   for (const LocalIndex n : mesh_.owned_nodes) {
@@ -91,72 +100,121 @@ void Multigrid::find_points(const HeatSystem& system) {
     owned.end_row();
   }
   restriction_ = transposed(owned);
-  coarse_.assign(points_.size(), 0.0);
-  coarse_solution_ = coarse_;
-  exact_.assign(points_.size(), 0);
 }
 
-// This rank's share of P^T A P, in units of 2^-exponent.
-SparseMatrix<std::int64_t> Multigrid::galerkin(const HeatSystem& system, int& exponent) const {
+// A P for the free rows; `greatest` sum of the sizes of a row's entries of A.
+SparseMatrix<double> Multigrid::times_interpolation(const HeatSystem& system, double& greatest) const {
   const ConductionMatrix& k = system.matrix;
-  SparseMatrix<double> a;  // rows of the free nodes
-  a.columns = mesh_.nodes();
-  a.column.reserve(k.columns().size() + rest_.size());
-  a.value.reserve(k.columns().size() + rest_.size());
-  double greatest = 0;
+  const SparseMatrix<float>& p = interpolation_;
+  SparseMatrix<double> ap;
+  ap.columns = p.columns;
+  constexpr std::size_t typical = 48;
+  ap.column.reserve(typical * rest_.size());
+  ap.value.reserve(typical * rest_.size());
+  RowSum<double> row(ap);
+  greatest = 0;
   for (std::size_t r = 0; r < rest_.size(); ++r) {
+    double sum = 0;
+    const auto add = [&](LocalIndex node, double entry) {
+      sum += std::abs(entry);
+      for (std::size_t q = p.begin(node); q < p.end(node); ++q)
+        row.add(p.column[q], entry * static_cast<double>(p.value[q]));
+    };
     if (system.inverse_diagonal[r] > 0) {
-      double sum = system.diagonal[r];
-      a.add(mesh_.owned_nodes[r], system.diagonal[r]);
-      for (auto p = static_cast<std::size_t>(k.offsets()[r]); p < static_cast<std::size_t>(k.offsets()[r + 1]); ++p) {
-        a.add(k.columns()[p], system.factor * k.values()[p]);
-        sum += std::abs(a.value.back());
-      }
-      greatest = std::max(greatest, sum);
+      add(mesh_.owned_nodes[r], system.diagonal[r]);
+      for (auto e = static_cast<std::size_t>(k.offsets()[r]); e < static_cast<std::size_t>(k.offsets()[r + 1]); ++e)
+        add(k.columns()[e], system.factor * k.values()[e]);
     }
-    a.end_row();
+    greatest = std::max(greatest, sum);
+    ap.end_row();
   }
+  return ap;
+}
+
+// This rank's share of the upper half of P^T A P, in units of 2^-exponent.
+SparseMatrix<std::int64_t> Multigrid::galerkin(const HeatSystem& system, int& exponent) const {
+  double greatest = 0;
+  const SparseMatrix<double> ap = times_interpolation(system, greatest);
   exponent = exponent_for(mesh_.comm.max(greatest) * static_cast<double>(most_nodes_));
   const double scale = std::ldexp(1.0, exponent);
-  const auto times = [](double x, double y) { return x * y; };
-  const SparseMatrix<double> ap = product<double>(a, interpolation_, times);
-  return product<std::int64_t>(restriction_, ap, [scale](double x, double y) { return rounded(x * y, scale); });
-}
-
-// The sum over the ranks, symmetric to the last bit, on every rank.
-SparseMatrix<double> Multigrid::gathered(const SparseMatrix<std::int64_t>& local, int exponent) const {
-  const std::int64_t n = local.columns;
-  std::vector<Entry> entries;
-  entries.reserve(local.column.size());
-  for (LocalIndex r = 0; r < local.rows(); ++r)
-    for (std::size_t p = local.begin(r); p < local.end(r); ++p)
-      entries.push_back({r * n + local.column[p], local.value[p]});
-  entries = mesh_.comm.gather(std::span<const Entry>(entries));
-  merge(entries);
-  mesh_.comm.broadcast(entries);
-  SparseMatrix<std::int64_t> whole;
-  whole.columns = local.columns;
-  for (const Entry& e : entries) {
-    while (whole.rows() < e.place / n) whole.end_row();
-    whole.add(static_cast<LocalIndex>(e.place % n), e.value);
+  SparseMatrix<std::int64_t> upper;
+  upper.columns = restriction_.rows();
+  RowSum<std::int64_t> row(upper);
+  for (LocalIndex i = 0; i < restriction_.rows(); ++i) {
+    for (std::size_t p = restriction_.begin(i); p < restriction_.end(i); ++p) {
+      const double w = scale * static_cast<double>(restriction_.value[p]);
+      for (std::size_t q = ap.begin(restriction_.column[p]); q < ap.end(restriction_.column[p]); ++q)
+        if (ap.column[q] >= i) row.add(ap.column[q], static_cast<std::int64_t>(w * ap.value[q]));
+    }
+    upper.end_row();
   }
-  while (whole.rows() < n) whole.end_row();
-  const SparseMatrix<std::int64_t> other = transposed(whole);  // of the same pattern
-  SparseMatrix<double> result;
-  result.columns = whole.columns;
-  result.offsets = whole.offsets;
-  result.column = whole.column;
-  result.value.reserve(whole.value.size());
-  const double unit = std::ldexp(1.0, -exponent - 1);
-  for (std::size_t p = 0; p < whole.value.size(); ++p)
-    result.value.push_back(unit * static_cast<double>(whole.value[p] + other.value[p]));
-  return result;
+  return upper;
 }
 
-// Of D^-1 A, by power iteration with exact sums, a little above.
-double Multigrid::greatest_eigenvalue(const HeatSystem& system) {
+// The sum over the ranks and its mirror image, on every rank; columns ascend.
+SparseMatrix<double> Multigrid::gathered(SparseMatrix<std::int64_t> upper, int exponent) const {
+  const std::int64_t n = upper.columns;
+  if (mesh_.comm.size() > 1) {
+    std::vector<Entry> entries;
+    entries.reserve(upper.column.size());
+    for (LocalIndex r = 0; r < upper.rows(); ++r)
+      for (std::size_t p = upper.begin(r); p < upper.end(r); ++p)
+        entries.push_back({r * n + upper.column[p], upper.value[p]});
+    entries = mesh_.comm.gather(std::span<const Entry>(entries));
+    merge(entries);
+    mesh_.comm.broadcast(entries);
+    upper = {};
+    upper.columns = static_cast<LocalIndex>(n);
+    for (const Entry& e : entries) {
+      while (upper.rows() < e.place / n) upper.end_row();
+      upper.add(static_cast<LocalIndex>(e.place % n), e.value);
+    }
+    while (upper.rows() < n) upper.end_row();
+  }
+  const SparseMatrix<std::int64_t> lower = transposed(upper);
+  upper = transposed(lower);
+  const double unit = std::ldexp(1.0, -exponent);
+  SparseMatrix<double> whole;
+  whole.columns = upper.columns;
+  whole.column.reserve(2 * upper.column.size());
+  whole.value.reserve(2 * upper.column.size());
+  for (LocalIndex r = 0; r < upper.rows(); ++r) {
+    for (std::size_t p = lower.begin(r); p < lower.end(r); ++p)
+      if (lower.column[p] < r) whole.add(lower.column[p], unit * static_cast<double>(lower.value[p]));
+    for (std::size_t p = upper.begin(r); p < upper.end(r); ++p)
+      whole.add(upper.column[p], unit * static_cast<double>(upper.value[p]));
+    whole.end_row();
+  }
+  return whole;
+}
+
+// As ConductionMatrix::multiply, from half the memory.
+void Multigrid::multiply(const HeatSystem& system, std::span<const double> x, std::span<double> out) const {
+  const auto offsets = system.matrix.offsets(), columns = system.matrix.columns();
+  for (std::size_t r = 0; r < out.size(); ++r) {
+    double sum = 0;
+    for (auto p = static_cast<std::size_t>(offsets[r]); p < static_cast<std::size_t>(offsets[r + 1]); ++p)
+      sum += static_cast<double>(links_[p]) * x[static_cast<std::size_t>(columns[p])];
+    out[r] = system.diagonal[r] * x[static_cast<std::size_t>(mesh_.owned_nodes[r])] + system.factor * sum;
+  }
+}
+
+// Of D^-1 A; collective.
+double Multigrid::greatest_row(const HeatSystem& system) const {
+  const ConductionMatrix& k = system.matrix;
+  double greatest = 0;
+  for (std::size_t r = 0; r < rest_.size(); ++r) {
+    double sum = system.diagonal[r];
+    for (auto p = static_cast<std::size_t>(k.offsets()[r]); p < static_cast<std::size_t>(k.offsets()[r + 1]); ++p)
+      sum += std::abs(system.factor * k.values()[p]);
+    greatest = std::max(greatest, system.inverse_diagonal[r] * sum);
+  }
+  return mesh_.comm.max(greatest);
+}
+
+// Of D^-1 A, with exact sums; collective.
+double Multigrid::power_iteration(const HeatSystem& system) {
   constexpr int turns = 10;
-  constexpr double margin = 1.1;
   const auto node = [this](std::size_t k) { return static_cast<std::size_t>(mesh_.owned_nodes[k]); };
   for (std::size_t k = 0; k < rest_.size(); ++k) {
     const std::uint64_t id = static_cast<std::uint64_t>(mesh_.node_ids[node(k)]) * 0x9e3779b97f4a7c15u;
@@ -166,7 +224,7 @@ double Multigrid::greatest_eigenvalue(const HeatSystem& system) {
   double greatest = 0;
   for (int turn = 0; turn < turns; ++turn) {
     mesh_.node_halo.forward(std::span<const double>(change_), std::span<double>(change_));
-    system.matrix.multiply(system.diagonal, system.factor, change_, product_);
+    multiply(system, change_, product_);
     std::array<ExactSum, 2> local;
     double size = 0;
     for (std::size_t k = 0; k < rest_.size(); ++k) {
@@ -183,7 +241,7 @@ double Multigrid::greatest_eigenvalue(const HeatSystem& system) {
     greatest = std::max(greatest, sums[0] / sums[1]);
     for (std::size_t k = 0; k < rest_.size(); ++k) change_[node(k)] /= size;
   }
-  return greatest > 0 ? margin * greatest : 1.0;
+  return greatest;
 }
 
 void Multigrid::smooth(const HeatSystem& system, std::span<const double> r, std::span<double> z, bool from_zero) {
@@ -191,7 +249,7 @@ void Multigrid::smooth(const HeatSystem& system, std::span<const double> r, std:
   if (from_zero) {
     std::ranges::copy(r, rest_.begin());
   } else {  // z's ghosts are those of their owners
-    system.matrix.multiply(system.diagonal, system.factor, z, product_);
+    multiply(system, z, product_);
     for (std::size_t k = 0; k < rest_.size(); ++k) rest_[k] = r[k] - product_[k];
   }
   const double sigma = smoother_.theta / smoother_.delta, inverse_theta = 1 / smoother_.theta;
@@ -202,7 +260,7 @@ void Multigrid::smooth(const HeatSystem& system, std::span<const double> r, std:
   }
   for (int step = 1; step < Chebyshev::degree; ++step) {
     mesh_.node_halo.forward(std::span<const double>(change_), std::span<double>(change_));
-    system.matrix.multiply(system.diagonal, system.factor, change_, product_);
+    multiply(system, change_, product_);
     const double next = 1 / (2 * sigma - rho), keep = next * rho, take = 2 * next / smoother_.delta;
     for (std::size_t k = 0; k < rest_.size(); ++k) {
       rest_[k] -= product_[k];
@@ -224,7 +282,8 @@ void Multigrid::correct(std::span<double> z) {
   for (LocalIndex p = 0; p < restriction_.rows(); ++p) {
     std::int64_t sum = 0;
     for (std::size_t q = restriction_.begin(p); q < restriction_.end(p); ++q)
-      sum += rounded(restriction_.value[q] * rest_[static_cast<std::size_t>(restriction_.column[q])], scale);
+      sum += rounded(
+          static_cast<double>(restriction_.value[q]) * rest_[static_cast<std::size_t>(restriction_.column[q])], scale);
     exact_[static_cast<std::size_t>(p)] = sum;
   }
   mesh_.comm.sum(exact_);
@@ -233,7 +292,8 @@ void Multigrid::correct(std::span<double> z) {
   for (LocalIndex n = 0; n < interpolation_.rows(); ++n) {
     double sum = 0;
     for (std::size_t p = interpolation_.begin(n); p < interpolation_.end(n); ++p)
-      sum += interpolation_.value[p] * coarse_solution_[static_cast<std::size_t>(interpolation_.column[p])];
+      sum += static_cast<double>(interpolation_.value[p]) *
+             coarse_solution_[static_cast<std::size_t>(interpolation_.column[p])];
     z[static_cast<std::size_t>(n)] += sum;
   }
 }
@@ -241,7 +301,7 @@ void Multigrid::correct(std::span<double> z) {
 void Multigrid::apply(const HeatSystem& system, std::span<const double> r, std::span<double> z) {
   smooth(system, r, z, true);
   mesh_.node_halo.forward(std::span<const double>(z), z);
-  system.matrix.multiply(system.diagonal, system.factor, z, product_);
+  multiply(system, z, product_);
   // What is left of a held row is none of ours: its column of the restriction is empty, but its size would count.
   for (std::size_t k = 0; k < rest_.size(); ++k) rest_[k] = system.inverse_diagonal[k] > 0 ? r[k] - product_[k] : 0.0;
   correct(z);
@@ -250,7 +310,8 @@ void Multigrid::apply(const HeatSystem& system, std::span<const double> r, std::
 
 std::int64_t Multigrid::memory() const {
   return interpolation_.memory() + restriction_.memory() + levels_.memory() +
-         static_cast<std::int64_t>((rest_.size() + product_.size() + change_.size() + 3 * coarse_.size()) * 8);
+         static_cast<std::int64_t>(
+             (links_.size() / 2 + rest_.size() + product_.size() + change_.size() + 3 * coarse_.size()) * 8);
 }
 
 }  // namespace tenon::thermal

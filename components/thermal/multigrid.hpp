@@ -14,7 +14,7 @@ namespace tenon::thermal {
 /// The auxiliary space method [Xu96]: the mesh smooths with Chebyshev polynomials, a rectilinear grid laid over it,
 /// coarsened by twos, takes what is smooth. Symmetric and positive definite. Sums from the nodes of several ranks to
 /// the grid are sums of integers (values in units of 2^-61 of a bound of the sum), so no order matters. The coarse
-/// levels (about an eighth of the nodes) stand whole on every rank.
+/// levels (about a twelfth of the nodes) stand whole on every rank. What is multiplied is kept in single precision.
 class Multigrid {
  public:
   /// Collective. Lays the grid over the reference configuration.
@@ -31,9 +31,13 @@ class Multigrid {
 
  private:
   void find_points(const HeatSystem& system);
+  void interpolate(std::span<const double> free, std::span<const LocalIndex> number);
+  SparseMatrix<double> times_interpolation(const HeatSystem& system, double& greatest) const;
   SparseMatrix<std::int64_t> galerkin(const HeatSystem& system, int& exponent) const;
-  SparseMatrix<double> gathered(const SparseMatrix<std::int64_t>& local, int exponent) const;
-  double greatest_eigenvalue(const HeatSystem& system);
+  SparseMatrix<double> gathered(SparseMatrix<std::int64_t> upper, int exponent) const;
+  void multiply(const HeatSystem& system, std::span<const double> x, std::span<double> out) const;
+  double greatest_row(const HeatSystem& system) const;
+  double power_iteration(const HeatSystem& system);
   void smooth(const HeatSystem& system, std::span<const double> r, std::span<double> z, bool from_zero);
   void correct(std::span<double> z);
 
@@ -41,9 +45,10 @@ class Multigrid {
   RectilinearGrid grid_;
   bool built_ = false;
   double factor_ = 0;
-  std::int64_t most_nodes_ = 1;         // that one hat holds, over all ranks
-  SparseMatrix<double> interpolation_;  // from the points in use to all local nodes
-  SparseMatrix<double> restriction_;    // from the owned nodes (rows) to the points in use
+  std::int64_t most_nodes_ = 1;        // that one hat holds, over all ranks
+  SparseMatrix<float> interpolation_;  // from the points in use to all local nodes
+  SparseMatrix<float> restriction_;    // from the owned nodes (rows) to the points in use
+  std::vector<float> links_;           // off-diagonal entries of K
   std::vector<LocalIndex> points_;
   CoarseLevels levels_;
   Chebyshev smoother_;

@@ -4,21 +4,31 @@
 namespace tenon::thermal {
 namespace {
 
-double row_times(const SparseMatrix<double>& m, LocalIndex row, std::span<const double> x) {
+double row_times(const SparseMatrix<float>& m, LocalIndex row, std::span<const double> x) {
   double sum = 0;
-  for (std::size_t p = m.begin(row); p < m.end(row); ++p) sum += m.value[p] * x[static_cast<std::size_t>(m.column[p])];
+  for (std::size_t p = m.begin(row); p < m.end(row); ++p)
+    sum += static_cast<double>(m.value[p]) * x[static_cast<std::size_t>(m.column[p])];
   return sum;
 }
 
 }  // namespace
 
-void residual(const SparseMatrix<double>& m, std::span<const double> x, std::span<const double> b,
+SparseMatrix<float> single(const SparseMatrix<double>& m) {
+  SparseMatrix<float> s;
+  s.columns = m.columns;
+  s.offsets = m.offsets;
+  s.column = m.column;
+  s.value.assign(m.value.begin(), m.value.end());
+  return s;
+}
+
+void residual(const SparseMatrix<float>& m, std::span<const double> x, std::span<const double> b,
               std::span<double> out) {
   for (LocalIndex r = 0; r < m.rows(); ++r)
     out[static_cast<std::size_t>(r)] = b[static_cast<std::size_t>(r)] - row_times(m, r, x);
 }
 
-void multiply(const SparseMatrix<double>& m, std::span<const double> x, std::span<double> out) {
+void multiply(const SparseMatrix<float>& m, std::span<const double> x, std::span<double> out) {
   for (LocalIndex r = 0; r < m.rows(); ++r) out[static_cast<std::size_t>(r)] = row_times(m, r, x);
 }
 

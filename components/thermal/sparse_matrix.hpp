@@ -86,10 +86,13 @@ SparseMatrix<T> product(const SparseMatrix<double>& a, const SparseMatrix<double
   return c;
 }
 
+/// The same with values of half the size; sums stay in double precision.
+SparseMatrix<float> single(const SparseMatrix<double>& m);
+
 /// out = b - m x.
-void residual(const SparseMatrix<double>& m, std::span<const double> x, std::span<const double> b,
+void residual(const SparseMatrix<float>& m, std::span<const double> x, std::span<const double> b,
               std::span<double> out);
 /// out = m x.
-void multiply(const SparseMatrix<double>& m, std::span<const double> x, std::span<double> out);
+void multiply(const SparseMatrix<float>& m, std::span<const double> x, std::span<double> out);
 
 }  // namespace tenon::thermal

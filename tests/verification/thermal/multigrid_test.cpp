@@ -30,10 +30,10 @@ class Boxes : public ::testing::TestWithParam<std::tuple<bool, double>> {};
 TEST_P(Boxes, IterationsDoNotGrowWithTheMesh) {
   const auto [tetrahedra, distortion] = GetParam();
   std::vector<std::int64_t> counts;
-  for (const int n : {8, 16, 24})
+  for (const int n : {8, 16, tetrahedra ? 24 : 48})
     counts.push_back(iterations(distributed(cube(n, tetrahedra, distortion)), "box", "x_min"));
   EXPECT_LE(counts.back(), counts.front() + 3) << counts[0] << " " << counts[1] << " " << counts[2];
-  EXPECT_LE(counts.back(), 16);
+  EXPECT_LE(counts.back(), 14);
   RecordProperty("iterations", static_cast<int>(counts.back()));
 }
 
@@ -99,7 +99,7 @@ TEST(Multigrid, ContrastOfAThousand) {
     thermal.advance(1);
     counts.push_back(thermal.last_solve().iterations);
   }
-  EXPECT_LE(counts[1], counts[0] + 5) << counts[0] << " " << counts[1];
+  EXPECT_LE(counts[1], counts[0] + 8) << counts[0] << " " << counts[1];
   EXPECT_LE(counts[1], 30);
 }
 

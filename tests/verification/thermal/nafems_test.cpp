@@ -40,21 +40,20 @@ struct Plate {
   double corner, inside;  // T at (0.6, 0.2) and (0.2, 0.4), degC
 };
 
-/// Steady plate, 0.6 m x 1 m: marched with backward Euler steps far longer than its time scale.
+/// Steady plate, 0.6 m x 1 m, in one step.
 Plate steady_plate(int n) {
   BoxShape shape;
   shape.high = {0.6, 1.0, 0.1};
   shape.elements = {6 * n, 10 * n, 1};
   ThermalOptions options;
   options.blocks = {{"box", 1000, 1, 52, zero_celsius}};
-  options.stepper = ThermalStepper::backward_euler;
-  options.fixed_step = 1e5;
+  options.stepper = ThermalStepper::steady;
   options.prescribed = {{"y_min", TimeFunction::constant(zero_celsius + 100)}};
   options.convection = {{"x_max", 750, TimeFunction::constant(zero_celsius)},
                         {"y_max", 750, TimeFunction::constant(zero_celsius)}};
   Thermal thermal("heat", distributed(shape), options);
   thermal.initialize();
-  for (int i = 0; i < 6; ++i) thermal.advance(1e5);
+  thermal.advance(1);
   EXPECT_LT(balance(thermal).error(), 1e-12);
   return {temperature_at(thermal, {0.6, 0.2, 0}) - zero_celsius, temperature_at(thermal, {0.2, 0.4, 0}) - zero_celsius};
 }
