@@ -76,6 +76,7 @@ class Mechanics final : public Component {
   void refuse_misfits() const;
   void follow_limit();
   void set_velocities();
+  void set_spins();
   // Phases of a step.
   void kick(double dt);
   void refresh_ghosts();

@@ -63,6 +63,7 @@ struct PrescribedMotion {
   } kind = Kind::fixed;
   std::vector<std::string> node_sets;                ///< one or more; a node in several counts once
   std::array<bool, 3> components{true, true, true};  ///< of fixed, displacement, velocity, acceleration, gradient
+  std::array<bool, 3> rotations{true, true, true};   ///< of fixed: of nodes that have them (shells)
   std::array<TimeFunction, 3> value;
   TimeFunction factor;
   std::array<double, 9> gradient{};  ///< rows
@@ -106,6 +107,8 @@ struct MechanicsOptions {
   /// For programs and manufactured solutions; a scene cannot give it. Velocity (m/s) at a reference position (m), added
   /// to `initial_velocities`.
   std::function<Vec3(const Vec3&)> initial_velocity_function;
+  /// Likewise, rad/s, added to what the gradients of `initial_velocities` mean for the nodes of shells.
+  std::function<Vec3(const Vec3&)> initial_spin_function;
 };
 
 }  // namespace tenon

@@ -120,6 +120,26 @@ void Mechanics::set_temperatures() {
   }
 }
 
+// Nodes of shells turn as the field of velocities around them does.
+void Mechanics::set_spins() {
+  const std::span<Vec3> spin = nodes_.spin();
+  for (const InitialVelocity& given : options_.initial_velocities) {
+    const std::array<double, 9>& g = given.gradient;
+    const Vec3 turn{0.5 * (g[7] - g[5]), 0.5 * (g[2] - g[6]), 0.5 * (g[3] - g[1])};
+    const auto set = [&](LocalIndex n) { spin[static_cast<std::size_t>(n)] = turn; };
+    const ElementBlock* block = mesh_->find_block(given.block);
+    const NodeSet* nodes = mesh_->find_node_set(given.node_set);
+    if (block) std::for_each(block->connectivity.begin(), block->connectivity.end(), set);
+    if (nodes) std::for_each(nodes->nodes.begin(), nodes->nodes.end(), set);
+    for (LocalIndex n = 0; !block && !nodes && n < mesh_->nodes(); ++n) set(n);
+  }
+  for (std::size_t n = 0; n < nodes_.size(); ++n) {
+    if (options_.initial_spin_function) spin[n] = spin[n] + options_.initial_spin_function(mesh_->coordinates[n]);
+    if (nodes_.inertia[n] == 0) spin[n] = {};
+  }
+  conditions_.start_spins(spin);
+}
+
 void Mechanics::set_velocities() {
   const std::span<Vec3> velocity = nodes_.velocity();
   for (const InitialVelocity& given : options_.initial_velocities) {
@@ -146,6 +166,7 @@ void Mechanics::set_velocities() {
   }
   for (std::size_t n = 0; n < nodes_.size() && options_.initial_velocity_function; ++n)
     if (nodes_.mass[n] > 0) velocity[n] = velocity[n] + options_.initial_velocity_function(mesh_->coordinates[n]);
+  if (nodes_.has_rotations()) set_spins();
   conditions_.start(velocity, time());
   if (!rigid_->empty()) rigid_->start(nodes_, time());
   if (!ties_->empty()) ties_->follow(nodes_);

@@ -72,7 +72,12 @@ std::string node_at(const Mesh& mesh, LocalIndex n) {
 
 NodalConditions::NodalConditions(const Mesh& mesh, const std::vector<PrescribedMotion>& motions,
                                  const std::vector<RigidWall>& walls)
-    : mesh_(mesh), motions_(motions), walls_(walls), prepared_(motions.size()), wall_distance_(walls.size()) {
+    : mesh_(mesh),
+      motions_(motions),
+      walls_(walls),
+      prepared_(motions.size()),
+      rotations_(mesh, motions),
+      wall_distance_(walls.size()) {
   std::optional<Error> error;
   const double tolerance = 1e-6 * extent(mesh);
   std::vector<std::int32_t> index(static_cast<std::size_t>(mesh.nodes()), -1);
@@ -302,12 +307,14 @@ void NodalConditions::apply(NodalState& nodes, double time, double kick, double 
     wall_distance_[w] = dot(walls_[w].normal, walls_[w].point) + walls_[w].motion(time + dt);
   for (Constrained& entry : constrained_) enforce(entry, nodes, kick, dt);
   for (const Standing& entry : standing_) enforce(entry, nodes, kick, dt);
+  if (nodes.has_rotations() && !rotations_.empty()) rotations_.apply(nodes, time, kick, dt, boundary_work_);
 }
 
 std::int64_t NodalConditions::memory() const {
   return static_cast<std::int64_t>(constrained_.size() * sizeof(Constrained) + standing_.size() * sizeof(Standing) +
                                    (boundary_work_.size() + wall_work_.size()) * sizeof(double) +
-                                   standing_walls_.size() * sizeof(std::int32_t));
+                                   standing_walls_.size() * sizeof(std::int32_t)) +
+         rotations_.memory();
 }
 
 }  // namespace tenon

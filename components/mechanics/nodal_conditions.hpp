@@ -8,6 +8,7 @@
 
 #include "components/mechanics/mechanics_options.hpp"
 #include "components/mechanics/nodal_state.hpp"
+#include "components/mechanics/rotation_conditions.hpp"
 #include "framework/mesh/mesh.hpp"
 
 namespace tenon {
@@ -23,6 +24,7 @@ class NodalConditions {
 
   /// Makes velocities at the start time compatible with what stands still or has a prescribed velocity.
   void start(std::span<Vec3> velocity, double time);
+  void start_spins(std::span<Vec3> spin) const { rotations_.start(spin); }
 
   /// Local. After the kick over `kick` seconds: velocities for the step of length dt from `time`.
   void apply(NodalState& nodes, double time, double kick, double dt);
@@ -71,6 +73,7 @@ class NodalConditions {
   std::vector<RigidWall> walls_;
   bool has_bonded_walls_ = false;
   std::vector<Prepared> prepared_;
+  RotationConditions rotations_;
   std::vector<double> wall_distance_;  // of the plane from the origin along its normal, at the step's end
   std::vector<Constrained> constrained_;
   std::vector<Standing> standing_;

@@ -164,10 +164,26 @@ void read_components(const Value& item, const SceneReader& reader, PrescribedMot
     reader.diagnostics.error(item.where(), "prescribes nothing; expected at least one of x, y, z");
 }
 
+void read_fixed(const Value& item, const SceneReader& reader, PrescribedMotion& m) {
+  if (!item.has("components")) return;
+  const std::vector<std::string> names{"x", "y", "z", "rx", "ry", "rz"};
+  m.components = m.rotations = {};
+  for (const std::string& c : item.texts("components")) {
+    const auto i = static_cast<std::size_t>(std::ranges::find(names, c) - names.begin());
+    if (i < 3)
+      m.components[i] = true;
+    else if (i < 6)
+      m.rotations[i - 3] = true;
+    else
+      reader.diagnostics.error(item.where("components"),
+                               fmt::format("components: '{}' is not one of x, y, z, rx, ry, rz", c));
+  }
+}
+
 void read_motions(const Value& value, const SceneReader& reader, std::vector<PrescribedMotion>& motions) {
   for (const Value& item : reader.items(value, "fixed")) {
     PrescribedMotion m = reader.motion(item, Kind::fixed, "fixed");
-    m.components = reader.components(item);
+    read_fixed(item, reader, m);
     motions.push_back(std::move(m));
   }
   for (const Value& item : reader.items(value, "prescribed_displacements")) {

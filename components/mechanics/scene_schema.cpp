@@ -89,7 +89,9 @@ Schema& add_sets(Schema& s) {
 
 Schema fixed_schema() {
   Schema s("Nodes that stand still in some components.");
-  add_sets(s).texts("components", "Any of x, y, z; all three without it.");
+  add_sets(s).texts("components",
+                    "Any of x, y, z and, for the rotations of nodes of shells, rx, ry, rz; all six without it, so that "
+                    "shells are clamped.");
   return s;
 }
 

@@ -155,30 +155,39 @@ TENON_KERNEL ShellModes<R> director_moments(const ShellGeometry<R>& g, const She
           n(f.hourglass) + turn(g.d1, f.eta) + turn(g.d2, f.xi)};
 }
 
+/// 11 and 22 components in the natural base, and twice the 12 component (strains) or it (stresses).
+template <typename R>
+struct Natural {
+  R r11, r22, r12;
+};
+
 /// Covariant rates e_ab = a_a . v_b and curvatures e_ab(zeta) of the surface x + zeta d, all in pairs that a rigid
 /// rotation makes zero. Transverse shear from its values at the middles of the edges [BD85] (triangle: [LB04]), which
-/// keeps thin elements free of locking. The shears xi e11 + eta e22 that go with in-plane bending are left out. v and w
-/// are in the element's axes.
+/// keeps thin elements free of locking. From what varies over the element the share of the constant strain is taken
+/// that varies in natural components only because the element is no parallelogram (p, q: h = p a1 + q a2 + ...):
+/// constant strain leaves nothing, so that patches of any shape are exact. The shears xi e11 + eta e22 that go with
+/// in-plane bending are left out. v and w are in the element's axes.
 template <typename S, typename R>
 TENON_KERNEL ShellRates<R> shell_rates(const ShellGeometry<R>& g, const ShellModes<R>& v, const ShellModes<R>& w) {
   const ShellModes<R> d = director_rates(g, w);
   ShellRates<R> r;
-  const auto cartesian = [&](const R& r11, const R& r22, const R& r12, R(&to)[3]) {
-    to[0] = r11 * (g.g1.x * g.g1.x) + r22 * (g.g2.x * g.g2.x) + r12 * (g.g1.x * g.g2.x);
-    to[1] = r11 * (g.g1.y * g.g1.y) + r22 * (g.g2.y * g.g2.y) + r12 * (g.g1.y * g.g2.y);
-    to[2] = 2.0 * (r11 * (g.g1.x * g.g1.y) + r22 * (g.g2.x * g.g2.y)) + r12 * (g.g1.x * g.g2.y + g.g1.y * g.g2.x);
+  const auto cartesian = [&](const Natural<R>& c, R(&to)[3]) {
+    to[0] = c.r11 * (g.g1.x * g.g1.x) + c.r22 * (g.g2.x * g.g2.x) + c.r12 * (g.g1.x * g.g2.x);
+    to[1] = c.r11 * (g.g1.y * g.g1.y) + c.r22 * (g.g2.y * g.g2.y) + c.r12 * (g.g1.y * g.g2.y);
+    to[2] = 2.0 * (c.r11 * (g.g1.x * g.g1.y) + c.r22 * (g.g2.x * g.g2.y)) + c.r12 * (g.g1.x * g.g2.y + g.g1.y * g.g2.x);
   };
-  cartesian(dot(g.a1, v.xi), dot(g.a2, v.eta), dot(g.a1, v.eta) + dot(g.a2, v.xi), r.membrane);
-  cartesian(dot(g.a1, d.xi) + dot(g.d1, v.xi), dot(g.a2, d.eta) + dot(g.d2, v.eta),
-            dot(g.a1, d.eta) + dot(g.a2, d.xi) + dot(g.d1, v.eta) + dot(g.d2, v.xi), r.curvature);
+  const Natural<R> e{dot(g.a1, v.xi), dot(g.a2, v.eta), dot(g.a1, v.eta) + dot(g.a2, v.xi)};
+  const Natural<R> k{dot(g.a1, d.xi) + dot(g.d1, v.xi), dot(g.a2, d.eta) + dot(g.d2, v.eta),
+                     dot(g.a1, d.eta) + dot(g.a2, d.xi) + dot(g.d1, v.eta) + dot(g.d2, v.xi)};
+  cartesian(e, r.membrane), cartesian(k, r.curvature);
   R s1 = v.xi.z + dot(g.a1, d.mean), s2 = v.eta.z + dot(g.a2, d.mean);
   if constexpr (S::nodes == 4) {
     s1 += dot(g.h, d.eta) + dot(g.d2, v.hourglass), s2 += dot(g.h, d.xi) + dot(g.d1, v.hourglass);
-    r.hourglass[0] = dot(g.a1, v.hourglass) + dot(g.h, v.xi);
-    r.hourglass[1] = dot(g.a2, v.hourglass) + dot(g.h, v.eta);
-    r.hourglass[2] = dot(g.a1, d.hourglass) + dot(g.h, d.xi) + dot(g.d1, v.hourglass);
-    r.hourglass[3] = dot(g.a2, d.hourglass) + dot(g.h, d.eta) + dot(g.d2, v.hourglass);
-    const R common = v.hourglass.z + dot(g.h, d.mean);
+    const R p = dot(g.g1, g.h), q = dot(g.g2, g.h), common = v.hourglass.z + dot(g.h, d.mean) - p * s1 - q * s2;
+    r.hourglass[0] = dot(g.a1, v.hourglass) + dot(g.h, v.xi) - 2.0 * p * e.r11 - q * e.r12;
+    r.hourglass[1] = dot(g.a2, v.hourglass) + dot(g.h, v.eta) - 2.0 * q * e.r22 - p * e.r12;
+    r.hourglass[2] = dot(g.a1, d.hourglass) + dot(g.h, d.xi) + dot(g.d1, v.hourglass) - 2.0 * p * k.r11 - q * k.r12;
+    r.hourglass[3] = dot(g.a2, d.hourglass) + dot(g.h, d.eta) + dot(g.d2, v.hourglass) - 2.0 * q * k.r22 - p * k.r12;
     r.hourglass[4] = common + dot(g.a1, d.eta) + dot(g.d2, v.xi);
     r.hourglass[5] = common + dot(g.a2, d.xi) + dot(g.d1, v.eta);
   } else {
@@ -200,28 +209,34 @@ struct ShellForces {
 /// The transpose of `shell_rates`.
 template <typename S, typename R>
 TENON_KERNEL ShellForces<R> shell_forces(const ShellGeometry<R>& g, const ShellResultants<R>& q) {
-  struct Natural {
-    R c11, c22, c12;
-  };
   const auto natural = [&](const R(&n)[3]) {
-    return Natural{n[0] * (g.g1.x * g.g1.x) + n[1] * (g.g1.y * g.g1.y) + 2.0 * (n[2] * (g.g1.x * g.g1.y)),
-                   n[0] * (g.g2.x * g.g2.x) + n[1] * (g.g2.y * g.g2.y) + 2.0 * (n[2] * (g.g2.x * g.g2.y)),
-                   n[0] * (g.g1.x * g.g2.x) + n[1] * (g.g1.y * g.g2.y) + n[2] * (g.g1.x * g.g2.y + g.g1.y * g.g2.x)};
+    return Natural<R>{n[0] * (g.g1.x * g.g1.x) + n[1] * (g.g1.y * g.g1.y) + 2.0 * (n[2] * (g.g1.x * g.g1.y)),
+                      n[0] * (g.g2.x * g.g2.x) + n[1] * (g.g2.y * g.g2.y) + 2.0 * (n[2] * (g.g2.x * g.g2.y)),
+                      n[0] * (g.g1.x * g.g2.x) + n[1] * (g.g1.y * g.g2.y) + n[2] * (g.g1.x * g.g2.y + g.g1.y * g.g2.x)};
   };
-  const Natural n = natural(q.membrane), m = natural(q.curvature);
-  const R s1 = q.shear[0] * g.g1.x + q.shear[1] * g.g1.y, s2 = q.shear[0] * g.g2.x + q.shear[1] * g.g2.y;
+  Natural<R> n = natural(q.membrane), m = natural(q.curvature);
+  R s1 = q.shear[0] * g.g1.x + q.shear[1] * g.g1.y, s2 = q.shear[0] * g.g2.x + q.shear[1] * g.g2.y;
+  if constexpr (S::nodes == 4) {
+    const R a = dot(g.g1, g.h), b = dot(g.g2, g.h), both = q.hourglass[4] + q.hourglass[5];
+    const auto subtract = [&](Natural<R>& from, const R& first, const R& second) {
+      from.r11 = from.r11 - 2.0 * a * first, from.r22 = from.r22 - 2.0 * b * second;
+      from.r12 = from.r12 - b * first - a * second;
+    };
+    subtract(n, q.hourglass[0], q.hourglass[1]), subtract(m, q.hourglass[2], q.hourglass[3]);
+    s1 = s1 - a * both, s2 = s2 - b * both;
+  }
   const auto in_plane = [](const R& a, const Plane<R>& u, const R& b, const Plane<R>& w) {
     return Vector<R>{a * u.x + b * w.x, a * u.y + b * w.y, R{}};
   };
   ShellModes<R> f, d;
   f.mean = Vector<R>{};
-  f.xi = in_plane(n.c11, g.a1, n.c12, g.a2) + in_plane(m.c11, g.d1, m.c12, g.d2);
-  f.eta = in_plane(n.c22, g.a2, n.c12, g.a1) + in_plane(m.c22, g.d2, m.c12, g.d1);
+  f.xi = in_plane(n.r11, g.a1, n.r12, g.a2) + in_plane(m.r11, g.d1, m.r12, g.d2);
+  f.eta = in_plane(n.r22, g.a2, n.r12, g.a1) + in_plane(m.r22, g.d2, m.r12, g.d1);
   f.xi.z += s1, f.eta.z += s2;
   const R half = 0.5 * q.drill[0];
   f.xi.x += half * g.g1.y, f.xi.y -= half * g.g1.x, f.eta.x += half * g.g2.y, f.eta.y -= half * g.g2.x;
   d.mean = in_plane(s1, g.a1, s2, g.a2);
-  d.xi = in_plane(m.c11, g.a1, m.c12, g.a2), d.eta = in_plane(m.c22, g.a2, m.c12, g.a1);
+  d.xi = in_plane(m.r11, g.a1, m.r12, g.a2), d.eta = in_plane(m.r22, g.a2, m.r12, g.a1);
   if constexpr (S::nodes == 4) {
     const R(&k)[6] = q.hourglass;
     f.xi = f.xi + k[0] * g.h + in_plane(k[4], g.d2, R{}, g.d2);

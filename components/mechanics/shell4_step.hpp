@@ -70,17 +70,20 @@ TENON_KERNEL R shell_frequency_squared(const ShellGeometry<R>& g, const ShellSti
   const R shear_unit = k.shear_modulus * unit, both = m.g11 + m.g22;
   R membrane = constant, transverse, turning{}, warp_shear{}, coupling{};
   if constexpr (S::nodes == 4) {
-    const R flat = g.h.x * g.h.x + g.h.y * g.h.y, up = g.h.z * g.h.z, all = flat + up;
+    const R up = g.h.z * g.h.z, all = up + g.h.x * g.h.x + g.h.y * g.h.y;
     const R k1 = k.moduli.young * (1.0 / 3.0) * m.g11 * m.g11, k2 = k.moduli.young * (1.0 / 3.0) * m.g22 * m.g22;
-    const R along1 = dot(g.g1, g.h), along2 = dot(g.g2, g.h);
-    const R cross = k1 * ((lambda + shear) * along1 * along1 + shear * m.g11 * flat) +
-                    k2 * ((lambda + shear) * along2 * along2 + shear * m.g22 * flat);
+    // h = along1 a1 + along2 a2 + ..., and the gradient of what that takes from the varying strains.
+    const R along1 = dot(g.g1, g.h), along2 = dot(g.g2, g.h), along = along1 * along1 + along2 * along2;
+    const R slope = along1 * along1 * m.g11 + along2 * along2 * m.g22 + 2.0 * along1 * along2 * m.g12;
+    const R cross = k1 * ((lambda + shear) * along1 * along1 + shear * slope * m.a11) +
+                    k2 * ((lambda + shear) * along2 * along2 + shear * slope * m.a22);
     const R tilt = (1.0 / 3.0) * k.moduli.young * m.g11 * m.g22 * greater_of(m.a12, -m.a12);
-    const R varying = unit * (greater_of(k1 * (m.a11 + all), k2 * (m.a22 + all)) + tilt);
+    const R varying = unit * (1.0 + along) * (greater_of(k1 * (m.a11 + up), k2 * (m.a22 + up)) + tilt);
     membrane = joined(constant, varying, unit * unit * cross);
-    const R bent = both * all, round = greater_of(m.g11 * m.a11, m.g22 * m.a22);
-    const R shear0 = steepest + slow * (1.0 + bent), shear1 = (1.0 / 3.0) * (both + slow * (round + bent));
-    transverse = joined(shear0, shear1, (2.0 / 3.0) * (slow * slow) * bent * (1.0 + round));
+    const R bent = both * all, round = 2.0 * greater_of(m.g11 * m.a11, m.g22 * m.a22) + 2.0 * along * bent;
+    const R shear0 = steepest + slow * (1.0 + bent);
+    const R shear1 = (1.0 / 3.0) * ((1.0 + along) * both + slow * round);
+    transverse = joined(shear0, shear1, (2.0 / 3.0) * (slope * both + slow * slow * bent * round));
     const R turn = up * greater_of(m.a11, m.a22) * (m.g11 * m.g22 - m.g12 * m.g12);
     turning = 2.0 * turn * both;
     warp_shear = 2.0 * shear_unit * both * turn;
