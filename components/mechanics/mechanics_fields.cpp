@@ -55,6 +55,16 @@ std::vector<ExportPort> Mechanics::exports() {
   }));
   ports.push_back(element_port(
       "eqps", 1, "1", [](const Group& g, LocalIndex e, int) { return g.model().plastic() ? g.history(e, 0) : 0.0; }));
+  if (nodes_.has_rotations()) {
+    ports.push_back(element_port("stress_top", 6, "Pa", [](const Group& g, LocalIndex e, int component) {
+      return g.face_stress(e, component, true);
+    }));
+    ports.push_back(element_port("stress_bottom", 6, "Pa", [](const Group& g, LocalIndex e, int component) {
+      return g.face_stress(e, component, false);
+    }));
+    ports.push_back(
+        element_port("thickness", 1, "m", [](const Group& g, LocalIndex e, int) { return g.thickness(e); }));
+  }
   ports.push_back(element_port("density", 1, "kg/m^3", [this](const Group& g, LocalIndex e, int) {
     return value_of(g.mass, e) / g.volume(e, nodes_.position());
   }));

@@ -299,7 +299,8 @@ template <typename S>
   // Viscous pressure in the plane of the middle surface; L^2 = 2/sum |grad N|^2.
   const auto at = [&](int i) { return load(work.increment[i] + lane); };
   const Pack stretch = (at(0) + at(1)) + k.offset * (at(3) + at(4));
-  const Pack rate = dt > 0 ? (1.0 / dt) * stretch : Pack{};
+  const Pack rate = dt > 0 ? (1.0 / dt) * stretch : load(stretching_[b][0] + lane);
+  store(stretching_[b][0] + lane, rate);
   const Pack trace = shell_metric<S>(g).trace, size = (2.0 * S::nodes) / trace;
   ElementScale<Pack> scale{};
   scale.wave_rate = square_root((k.moduli.lambda + 2.0 * k.moduli.shear) * volume / (m * size));

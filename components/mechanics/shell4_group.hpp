@@ -88,10 +88,11 @@ class ShellGroup final : public ElementGroup {
   double offset_share_, offset_;  // of the middle surface from the nodes: share of t, m
   BulkViscosity viscosity_;
   std::vector<Connectivity> connectivity_;
-  std::vector<Batch<4>> reference_;      // a1, a2 at the start in the element's axes, m
-  ElementValues inertia_;                // of a node over its mass, m^2
-  ElementValues shear_share_;            // 5/6 and less in thin triangles
-  ElementValues thickness_;              // m, now
+  std::vector<Batch<4>> reference_;  // a1, a2 at the start in the element's axes, m
+  ElementValues inertia_;            // of a node over its mass, m^2
+  ElementValues shear_share_;        // 5/6 and less in thin triangles
+  ElementValues thickness_;          // m, now
+  ElementValues stretching_;         // rate of area of the middle surface over the last step, 1/s: for the viscosity
   std::vector<Batch<varying>> varying_;  // stresses of the varying strains, Pa and Pa/m; drilling moments, N m
   std::vector<Batch<9>> axes_;           // rows, of the last advance
   std::vector<Batch<2>> moduli_;         // of the last update; only if they vary

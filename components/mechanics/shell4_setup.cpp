@@ -50,6 +50,7 @@ ShellGroup<S>::ShellGroup(std::size_t block, const ElementBlock& elements, std::
       inertia_(batches()),
       shear_share_(batches()),
       thickness_(batches()),
+      stretching_(batches()),
       varying_(batches()),
       axes_(batches()),
       moduli_(model().variable_stiffness() ? batches() : 0) {
@@ -146,6 +147,7 @@ template <typename S>
 std::vector<StateArray> ShellGroup<S>::state() {
   std::vector<StateArray> arrays = ElementGroup::state();
   arrays.push_back({"thickness", 1, thickness_.data()});
+  arrays.push_back({"stretching", 1, stretching_.data()});
   arrays.push_back({"varying_stress", varying, reinterpret_cast<Batch<1>*>(varying_.data())});
   if (!moduli_.empty()) arrays.push_back({"moduli", 2, reinterpret_cast<Batch<1>*>(moduli_.data())});
   return arrays;
@@ -154,7 +156,7 @@ std::vector<StateArray> ShellGroup<S>::state() {
 template <typename S>
 std::int64_t ShellGroup<S>::memory() const {
   const std::size_t batch =
-      sizeof(Connectivity) + sizeof(Batch<4>) + 3 * sizeof(Batch<1>) + sizeof(Batch<varying>) + sizeof(Batch<9>);
+      sizeof(Connectivity) + sizeof(Batch<4>) + 4 * sizeof(Batch<1>) + sizeof(Batch<varying>) + sizeof(Batch<9>);
   return ElementGroup::memory() + static_cast<std::int64_t>(batches() * batch + moduli_.size() * sizeof(Batch<2>));
 }
 
