@@ -51,6 +51,10 @@ inline MeshData shell_grid(const ShellGrid& grid, const Surface& surface) {
   std::int64_t label = 0;
   for (std::size_t e = 0; e < quads.connectivity.size() / 4; ++e) quads.labels.push_back(++label);
   for (std::size_t e = 0; e < triangles.connectivity.size() / 3; ++e) triangles.labels.push_back(++label);
+  // Pressure on `top` pushes against the right-hand normal.
+  SideSetData top{"top", 1, {}};
+  for (GlobalId e = 0; e < label; ++e) top.sides.push_back({e, 0});
+  mesh.side_sets.push_back(top);
   if (quads.size() > 0) mesh.blocks.push_back(quads);
   if (triangles.size() > 0) mesh.blocks.push_back(triangles);
   for (auto& [name, nodes] : sets)
