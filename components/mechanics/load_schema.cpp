@@ -118,7 +118,8 @@ Schema tied_schema() {
 }
 
 Schema non_reflecting_schema() {
-  Schema s("Sides that let plane waves out, by dashpots rho c_p and rho c_s per area.");
+  Schema s(
+      "Sides that let plane waves out, by dashpots rho c_p and rho c_s per area; not at nodes that are tied or rigid.");
   s.texts("side_sets", "One side set of the mesh, or a list of them.").required();
   return s;
 }

@@ -81,17 +81,17 @@ void Loads::finish(const Mesh& mesh, const NodalState& nodes, const ElementGroup
   }
   if (damped) damping_row_ = row("damping_energy");
   std::vector<NodalDamping::Entry> entries;
-  for (std::size_t n = 0; n < size; ++n)
+  for (std::size_t n = 0; n < size; ++n) {
+    if (nodes.mass[n] == 0) absorbing[n] = {};  // tied or rigid: its share of the boundary reflects
     if (trace(dashpots[n]) > 0 || trace(absorbing[n]) > 0)
       entries.push_back({static_cast<LocalIndex>(n), dashpots[n], absorbing[n]});
+  }
   std::optional<Error> error;
   for (const NodalDamping::Entry& entry : entries)
     if (nodes.mass[static_cast<std::size_t>(entry.node)] == 0 && mesh.owns_node(entry.node) && !error)
-      error =
-          Error(ExitCode::usage,
-                fmt::format("dashpots and non_reflecting: node {} is tied or belongs to a rigid body and has no mass "
-                            "of its own; put the damper elsewhere",
-                            mesh.node_labels[static_cast<std::size_t>(entry.node)]));
+      error = Error(ExitCode::usage, fmt::format("dashpots: node {} is tied or belongs to a rigid body and has no mass "
+                                                 "of its own; put the damper elsewhere",
+                                                 mesh.node_labels[static_cast<std::size_t>(entry.node)]));
   mesh.comm.throw_if_any(error);
   damping_ = NodalDamping(options_.damping.mass, std::move(entries), nodes);
   if (damping_.damps_spin() && nodes.has_rotations()) damping_moment_.resize(size), spin_before_.resize(size);
@@ -144,7 +144,6 @@ double Loads::stable_step(double step) const {
 }
 
 void Loads::apply(NodalState& nodes, const ElementGroups& groups, double time, double kick) {
-  std::ranges::copy(nodes.velocity(), before_.begin());
   for (Row& row : rows_) {
     for (const LocalIndex n : row.nodes) row.force[static_cast<std::size_t>(n)] = {};
     for (const auto& load : row.loads) load->add_forces({nodes, groups, time}, row.force);
@@ -167,11 +166,15 @@ void Loads::apply_damping(NodalState& nodes, double kick) {
     }
   }
   if (damping_moment_.empty()) return;
-  std::ranges::copy(nodes.spin(), spin_before_.begin());
   for (std::size_t n = 0; n < nodes.size(); ++n) {
     const Vec3 moment = damping_.moment(nodes, n, kick);
     for (std::size_t c = 0; c < 3; ++c) damping_moment_[n].v[c] = moment[c], nodes.moment[n].v[c] -= moment[c];
   }
+}
+
+void Loads::remember(const NodalState& nodes) {
+  std::ranges::copy(nodes.velocity(), before_.begin());
+  if (!damping_moment_.empty()) std::ranges::copy(nodes.spin(), spin_before_.begin());
 }
 
 void Loads::book(const NodalState& nodes, double kick) {

@@ -13,8 +13,9 @@ namespace tenon {
 /// External forces enter the kick as negative resistance: f - F takes the place of f, so that prescribed motions, walls
 /// and the work they book see the total force. The work that is then booked on the nodes is that against f - F; adding
 /// back the work of F, dt F . (v- + v+)/2 with the final velocities, gives the internal one to the last bit.
-///   apply   before the kick: forces at the present positions and time, then damping, which sees all others
-///   book    once the velocities of the next half step are final
+///   apply     before the kick: forces at the present positions and time, then damping, which sees all others
+///   remember  the velocities before the kick
+///   book      once the velocities of the next half step are final
 /// Each row of the ledger has its own forces and work. On a node whose motion is prescribed, damping takes the velocity
 /// that it would have without: what this changes is the reaction.
 class Loads {
@@ -30,6 +31,8 @@ class Loads {
   bool empty() const { return rows_.empty(); }
   /// Collective.
   void apply(NodalState& nodes, const ElementGroups& groups, double time, double kick);
+  /// Local. Velocities before the kick, as the work counts them.
+  void remember(const NodalState& nodes);
   /// Local.
   void book(const NodalState& nodes, double kick);
 

@@ -67,20 +67,29 @@ void Mechanics::kick(double dt) {
   const ScopedTimer timer(*phases_.update);
   if (relaxation_ && relaxation_->begin(nodes_)) previous_dt_ = 0;
   const double kick = 0.5 * (previous_dt_ + dt);
-  if (!rigid_->empty()) rigid_->set_rates(nodes_);
   if (!loads_->empty()) loads_->apply(nodes_, groups_, time(), kick);
+  if (!rigid_->empty()) set_rigid_rates();
+  if (!loads_->empty()) loads_->remember(nodes_);
   if (!ties_->empty()) ties_->gather(nodes_);
   if (!rigid_->empty()) rigid_->kick(nodes_, time(), kick, dt);
   kick_vectors(nodes_.velocity(), nodes_.force, nodes_.inverse_mass, kick, nodes_.internal_work);
   if (nodes_.has_rotations())
     kick_vectors(nodes_.spin(), nodes_.moment, nodes_.inverse_inertia, kick, nodes_.internal_work);
   conditions_.apply(nodes_, time(), kick, dt);
-  if (!rigid_->empty()) rigid_->set_rates(nodes_);
-  if (!ties_->empty()) ties_->follow(nodes_);
+  if (!rigid_->empty())
+    set_rigid_rates();
+  else if (!ties_->empty())
+    ties_->follow(nodes_);
   if (!loads_->empty()) loads_->book(nodes_, kick);
   if (relaxation_) relaxation_->watch(nodes_, *loads_, kick, previous_dt_, dt, time());
   if (rigid_->empty()) return;
   rigid_->move(nodes_, dt);
+  if (!ties_->empty()) ties_->follow(nodes_);
+}
+
+// Ghosts keep the velocities that they came with: no force may look at them from here on.
+void Mechanics::set_rigid_rates() {
+  rigid_->set_rates(nodes_);
   if (!ties_->empty()) ties_->follow(nodes_);
 }
 

@@ -79,6 +79,7 @@ class Mechanics final : public Component {
   void set_spins();
   // Phases of a step.
   void kick(double dt);
+  void set_rigid_rates();
   void refresh_ghosts();
   void drift(double dt);
   void compute_forces(double dt);

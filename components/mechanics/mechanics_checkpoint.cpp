@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // State in a checkpoint. Masses and forces are computed again, to the same bits.
+#include <sstream>
+
 #include "components/mechanics/mechanics.hpp"
 
 namespace tenon {
@@ -19,6 +21,23 @@ std::vector<GlobalId> chosen_ids(const std::vector<GlobalId>& ids, const std::ve
 }
 
 constexpr int every_rank = -1;
+
+/// Collective. The state of a group, the same list on every rank: one without elements of the block cannot tell from
+/// its empty arrays which ones there are.
+std::vector<StateArray> agreed_state(const Communicator& comm, ElementGroup& group) {
+  const int root = static_cast<int>(comm.min(static_cast<std::int64_t>(group.size() > 0 ? comm.rank() : comm.size())));
+  if (root == comm.size()) return {};
+  std::vector<StateArray> arrays;
+  if (group.size() > 0) arrays = group.state();
+  std::string list;
+  for (const StateArray& array : arrays) list += array.name + ' ' + std::to_string(array.rows) + '\n';
+  comm.broadcast(list, root);
+  if (group.size() > 0) return arrays;
+  std::istringstream text(list);
+  StateArray array{"", 0, nullptr};
+  while (text >> array.name >> array.rows) arrays.push_back(array);
+  return arrays;
+}
 
 }  // namespace
 
@@ -67,7 +86,7 @@ void Mechanics::save(CheckpointWriter& file) {
     const GlobalOrder elements(mesh_->comm,
                                chosen_ids(block.ids, block.owners, mesh_->comm.rank(), block.first_id, chosen),
                                block.global_count);
-    for (const StateArray& array : group->state()) {
+    for (const StateArray& array : agreed_state(mesh_->comm, *group)) {
       values.clear();
       for (const LocalIndex e : chosen)
         for (int row = 0; row < array.rows; ++row) values.push_back(array.at(e, row));
@@ -110,8 +129,7 @@ void Mechanics::load(const CheckpointReader& file) {
     relaxation_->restore({file.scalar(key("relaxation.energy")), file.scalar(key("relaxation.energy_before")),
                           file.integer(key("relaxation.turning")), file.integer(key("relaxation.steps")),
                           file.integer(key("relaxation.peaks"))});
-    node_array("relaxation_energy", 1,
-               [&](std::size_t n, std::size_t) -> double& { return relaxation_->taken()[n]; });
+    node_array("relaxation_energy", 1, [&](std::size_t n, std::size_t) -> double& { return relaxation_->taken()[n]; });
   }
   for (Loads::Row& row : loads_->rows())
     node_array(row.name, 1, [&](std::size_t n, std::size_t) -> double& { return row.work[n]; });
@@ -120,7 +138,7 @@ void Mechanics::load(const CheckpointReader& file) {
     chosen.clear();
     const GlobalOrder elements(mesh_->comm, chosen_ids(block.ids, block.owners, every_rank, block.first_id, chosen),
                                block.global_count);
-    for (const StateArray& array : group->state()) {
+    for (const StateArray& array : agreed_state(mesh_->comm, *group)) {
       values.resize(block.ids.size() * static_cast<std::size_t>(array.rows));
       file.array(key(block.name + "." + array.name), elements, values, array.rows);
       auto from = values.begin();

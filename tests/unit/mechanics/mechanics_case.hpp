@@ -88,6 +88,17 @@ inline std::shared_ptr<const Mesh> whole_mesh(const MeshData& data) {
       for (const GlobalId n : data.node_sets[s].nodes) set.nodes.push_back(static_cast<LocalIndex>(n));
     mesh->node_sets.push_back(std::move(set));
   }
+  for (std::size_t s = 0; s < summary.side_sets.size(); ++s) {
+    SideSet set{summary.side_sets[s].name, {}, summary.side_sets[s].count};
+    for (std::size_t i = 0; comm.rank() == 0 && i < data.side_sets[s].sides.size(); ++i) {
+      const SideData& side = data.side_sets[s].sides[i];
+      std::size_t b = 0;
+      while (side.element >= mesh->blocks[b].first_id + mesh->blocks[b].global_count) ++b;
+      set.sides.push_back(
+          {static_cast<LocalIndex>(b), static_cast<LocalIndex>(side.element - mesh->blocks[b].first_id), side.side});
+    }
+    mesh->side_sets.push_back(std::move(set));
+  }
   if (comm.rank() == 0) {
     mesh->coordinates = data.coordinates;
     mesh->node_labels = data.node_labels;
@@ -104,7 +115,7 @@ inline std::shared_ptr<const Mesh> whole_mesh(const MeshData& data) {
 /// A body of one material in all blocks; `initialize` is the caller's.
 inline std::unique_ptr<Mechanics> body(std::shared_ptr<const Mesh> mesh, const MaterialDescription& material,
                                        MechanicsOptions options) {
-  for (const ElementBlock& block : mesh->blocks) options.blocks.push_back({block.name, material});
+  for (const ElementBlock& block : mesh->blocks) options.blocks.push_back({block.name, material, {}, {}});
   return std::make_unique<Mechanics>("body", std::move(mesh), std::move(options));
 }
 

@@ -126,5 +126,23 @@ TEST(PatchTest, InnerNodesFindTheirPlaces) {
   }
 }
 
+// Only the outer nodes are moved; the inner ones find their places by dynamic relaxation.
+TEST(PatchTest, InnerNodesByDynamicRelaxation) {
+  MechanicsOptions options = stretched("outer", TimeFunction::smooth_step(0, 1e2, 0, 0.02));  // strain 1e-7
+  options.hourglass.form = HourglassOptions::Form::physical;
+  options.loads.relaxation = RelaxationOptions{2e-9, 0.02};
+  const auto m = body(patch(), elastic_material(1e6, 0.25, 1), options);
+  m->initialize();
+  for (int s = 0; s < 20000 && !m->finished(); ++s) m->advance(m->time_step());
+  ASSERT_TRUE(m->finished()) << m->ending();
+  const std::vector<double> u = field(*m, "displacement");
+  const double a = 1e2 * amplitude;
+  for (std::size_t n = 0; n < 16; ++n) {
+    const Vec3& x = m->mesh().coordinates[n];
+    const Vec3 expected = 0.5 * a * Vec3{2 * x[0] + x[1] + x[2], x[0] + 2 * x[1] + x[2], x[0] + x[1] + 2 * x[2]};
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(u[3 * n + c], expected[c], 2e-8 * a) << n;
+  }
+}
+
 }  // namespace
 }  // namespace tenon::testing
