@@ -23,6 +23,18 @@ TENON_KERNEL ShellModes<R> moved(const ShellModes<R>& x, const ShellModes<R>& v,
   const R t = broadcast<R>(time);
   return {x.mean, x.xi + t * v.xi, x.eta + t * v.eta, x.hourglass + t * v.hourglass};
 }
+/// Register by register: faster than what the compiler makes of an assignment.
+TENON_KERNEL void copy(const Batch<6>& from, Batch<6>& to) {
+#pragma GCC unroll 6
+  for (int i = 0; i < 6; ++i)
+    for (int lane = 0; lane < lanes; lane += pack_width) store(to[i] + lane, load(from[i] + lane));
+}
+template <int N>
+TENON_KERNEL void clear(Batch<N>& rows) {
+#pragma GCC unroll 10
+  for (int i = 0; i < N; ++i)
+    for (int lane = 0; lane < lanes; lane += pack_width) store(rows[i] + lane, Pack{});
+}
 TENON_KERNEL void add(Batch<1>& to, int lane, const Pack& value) {
   store(to[0] + lane, load(to[0] + lane) + value);
 }
@@ -92,7 +104,9 @@ GroupStep ShellGroup<S>::advance(const NodeArrays& nodes, double dt) {
 
 template <typename S>
 void ShellGroup<S>::advance_batch(std::size_t b, const NodeArrays& nodes, double dt, Batch<1>& least, Batch<1>& where) {
-  Work work{};
+  Work work;
+  clear(work.resultant), clear(work.thinning), clear(work.plastic), clear(work.squash), clear(work.bend);
+  if (!(dt > 0)) clear(work.increment), clear(work.variation);
   if (dt > 0) {
     Batch<1> temperature_increment;
     for (int lane = 0; lane < lanes; lane += pack_width) deform(b, lane, nodes, dt, work, temperature_increment);
@@ -152,7 +166,7 @@ void ShellGroup<S>::update_layers(std::size_t b, double dt, const Batch<1>& temp
     const UpdateInput input{strain, temperature[b], temperature_increment, dt};
     Batch<6>& now = points.stress(b, p);
     Batch<6> before;
-    if (plastic || !dead.empty()) before = now;
+    if (plastic || !dead.empty()) copy(now, before);
     Batch<1> done{}, thinning, relaxation;
     model().update_plane_stress(input, now, points.history(b, p), done, thinning);
     for (int l = 0; l < lanes; ++l) strain[2][l] = thinning[0][l], relaxation[0][l] = 1;
