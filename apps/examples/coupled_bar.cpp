@@ -39,7 +39,7 @@ std::shared_ptr<const Mesh> bar(const Communicator& comm, bool tetrahedra) {
 
 std::unique_ptr<Component> mechanics(const Communicator& comm) {
   MechanicsOptions options;
-  options.blocks = {{"cylinder", copper()}};
+  options.blocks = {{"cylinder", copper(), {}, {}}};
   options.heat = HeatMode::exported;
   options.initial_velocities.push_back({"", "", {0, 0, -227}, {}, {}});
   PrescribedMotion wall;

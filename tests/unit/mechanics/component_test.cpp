@@ -191,7 +191,7 @@ TEST(Mechanics, OneElementOnManyRanks) {
 
 TEST(Mechanics, CostsFollowTheMaterial) {
   MechanicsOptions options;
-  options.blocks = {{"a", steel()}, {"b", copper()}};
+  options.blocks = {{"a", steel(), {}, {}}, {"b", copper(), {}, {}}};
   const ElementCost cost = mechanics_cost(options);
   EXPECT_EQ(cost("a", ElementKind::hex8), 1.0);
   EXPECT_GT(cost("b", ElementKind::hex8), 1.0);

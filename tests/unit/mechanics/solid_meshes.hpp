@@ -47,7 +47,7 @@ inline MeshData solid_box(BoxShape box, ElementKind kind) {
 /// A body of solids by all quadrature points, or by the formulation that is usual for the kind.
 inline std::unique_ptr<Mechanics> solid_body(std::shared_ptr<const Mesh> mesh, const MaterialDescription& material,
                                              MechanicsOptions::Formulation formulation, MechanicsOptions options) {
-  for (const ElementBlock& block : mesh->blocks) options.blocks.push_back({block.name, material, formulation});
+  for (const ElementBlock& block : mesh->blocks) options.blocks.push_back({block.name, material, formulation, {}});
   return std::make_unique<Mechanics>("body", std::move(mesh), std::move(options));
 }
 
