@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The copper Taylor bar at 227 m/s by Tenon and by CalculiX on the same meshes, one core each: run time and error.
+    taylor_bar.py BUILD [CSV = taylor_bar.csv] [--repeats 3] [--most-seconds 60]
+A quarter of the section, bilateral frictionless wall, 80 us."""
+import argparse
+import sys
+
+from meshes import quarter_cylinder
+from runs import CalculiX, Table, Tenon, folder
+
+RADIUS, LENGTH = 3.2e-3, 32.4e-3
+# The finest of independent axisymmetric solutions (10 x 100 quadrilaterals, B-bar); one mesh coarser they are 21.483, 7.164 mm.
+REFERENCE_LENGTH, REFERENCE_RADIUS = 21.445, 7.198
+MESHES = [(2, 1, 20), (4, 2, 40), (6, 3, 50), (8, 4, 60), (12, 6, 100)]  # core, shell, axial
+
+SCENE = """
+title: Taylor bar, copper, 227 m/s
+end_time: 80 us
+meshes:
+  bar: {type: file, file: mesh.msh}
+materials:
+  copper:
+    density: 8930 kg/m^3
+    elastic: {youngs_modulus: 117 GPa, poissons_ratio: 0.35}
+    plasticity: {type: linear_hardening, yield_stress: 400 MPa, hardening_modulus: 100 MPa}
+components:
+  mechanics:
+    type: explicit_mechanics
+    mesh: bar
+    material: copper
+    initial_velocity: [0, 0, -227 m/s]
+    symmetry_planes:
+      - {node_sets: x_min, normal: [1, 0, 0]}
+      - {node_sets: y_min, normal: [0, 1, 0]}
+    rigid_walls:
+      - {point: [0, 0, 0], normal: [0, 0, 1], node_sets: bottom, bilateral: true}
+output:
+  frames: {every: 1 s}
+  history:
+    every: 80 us
+    points:
+      free_end: {field: displacement, point: [0, 0, 32.4 mm]}
+      foot_edge: {field: displacement, point: [3.2 mm, 0, 0]}
+"""
+
+# Linear hardening as a line from 0 to a plastic strain of 4.
+CARDS = """*MATERIAL, NAME=COPPER
+*ELASTIC
+117E9, 0.35
+*DENSITY
+8930
+*PLASTIC
+400E6, 0.
+800E6, 4.
+*SOLID SECTION, ELSET=BODY, MATERIAL=COPPER
+*BOUNDARY
+X_MIN, 1, 1
+Y_MIN, 2, 2
+BOTTOM, 3, 3
+*INITIAL CONDITIONS, TYPE=VELOCITY
+ALL, 3, -227.
+*STEP, NLGEOM, INC=10000000
+*DYNAMIC{parameters}
+{first}, 80E-6
+*NODE PRINT, NSET=FREE_END, FREQUENCY=1000000
+U
+*NODE PRINT, NSET=FOOT_EDGE, FREQUENCY=1000000
+U
+*EL PRINT, ELSET=BODY, FREQUENCY=1000000
+PEEQ
+*END STEP
+"""
+# Name, element, parameters of *DYNAMIC, first increment (s).
+RIVALS = [("C3D8I implicit", "C3D8I", ", ALPHA=-0.3", "2.5E-7"), ("C3D8R implicit", "C3D8R", ", ALPHA=-0.3", "2.5E-7"),
+          ("C3D8R explicit", "C3D8R", ", EXPLICIT", "1E-8"), ("C3D8 explicit", "C3D8", ", EXPLICIT", "1E-8")]
+
+
+def of_tenon(tenon, mesh, where, repeats):
+    mesh.write_gmsh(f"{where}/mesh.msh")
+    seconds, summary, row = tenon.run(where, SCENE, repeats)
+    return seconds, summary["steps"], row["free_end_z"], row["foot_edge_x"], row["max_eqps"]
+
+
+def of_calculix(mesh, where, element, parameters, first, repeats):
+    deck = mesh.calculix(element) + CARDS.format(parameters=parameters, first=first)
+    seconds, tables = CalculiX().run(where, deck, repeats)
+    find = lambda words: next(rows for title, rows in tables.items() if words in title)
+    strain = max(row[2] for row in find("plastic strain"))
+    return seconds, "", find("FREE_END")[0][3], find("FOOT_EDGE")[0][1], strain
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("build")
+    parser.add_argument("csv", nargs="?", default="taylor_bar.csv")
+    parser.add_argument("--repeats", type=int, default=3)
+    parser.add_argument("--most-seconds", type=float, default=60, help="no finer mesh than that which exceeded this")
+    options = parser.parse_args()
+    tenon = Tenon(options.build)
+    table = Table(options.csv, ["code", "elements", "steps", "seconds", "L_mm", "R_mm", "eqps", "L_error", "R_error"])
+    codes = {"Tenon": None} | {f"CalculiX {name}": settings for name, *settings in RIVALS}
+    for name, rival in codes.items():
+        for core, shell, axial in MESHES:
+            mesh = quarter_cylinder(RADIUS, LENGTH, core, shell, axial)
+            where = folder()
+            try:
+                result = (of_calculix(mesh, where, *rival, 1) if rival else of_tenon(tenon, mesh, where, options.repeats))
+            except RuntimeError as error:
+                print(error, file=sys.stderr)
+                continue
+            seconds, steps, shortening, growth, strain = result
+            length, radius = 1e3 * (LENGTH + shortening), 1e3 * (RADIUS + growth)
+            table.row(code=name, elements=len(mesh.elements), steps=steps, seconds=seconds, L_mm=length, R_mm=radius,
+                      eqps=strain, L_error=abs(length / REFERENCE_LENGTH - 1), R_error=abs(radius / REFERENCE_RADIUS - 1))
+            if seconds > options.most_seconds:
+                break
+
+
+if __name__ == "__main__":
+    main()
