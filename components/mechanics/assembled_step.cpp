@@ -74,7 +74,7 @@ double AssembledStep::product(const std::vector<Vec3>& a, const std::vector<Vec3
 }
 
 // next = M^-1/2 (stiffness K + damping C) M^-1/2 now, on owned nodes.
-void AssembledStep::multiply(NodalState& nodes, const Groups& groups, double stiffness, double damping) {
+void AssembledStep::multiply(NodalState& nodes, const ElementGroups& groups, double stiffness, double damping) {
   const auto root = [&](std::size_t n) { return std::sqrt(nodes.inverse_mass[n]); };
   for (const LocalIndex n : mesh_.owned_nodes) {
     const auto i = static_cast<std::size_t>(n);
@@ -91,7 +91,7 @@ void AssembledStep::multiply(NodalState& nodes, const Groups& groups, double sti
   ++products_;
 }
 
-double AssembledStep::find(NodalState& nodes, const Groups& groups, double bound) {
+double AssembledStep::find(NodalState& nodes, const ElementGroups& groups, double bound) {
   constexpr int most = 80, look_every = 4;
   constexpr double tolerance = 0.01;
   std::vector<double> diagonal, beside;

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "components/mechanics/element_group.hpp"
+#include "components/mechanics/element_groups.hpp"
 
 namespace tenon {
 
@@ -15,18 +15,17 @@ namespace tenon {
 /// ranks.
 class AssembledStep {
  public:
-  using Groups = std::vector<std::unique_ptr<ElementGroup>>;
   AssembledStep(const Mesh& mesh, const NodalState& nodes);
 
   /// Collective. The greatest stable step of free nodes, s, at the present geometry, moduli and rates; `bound` is a
   /// step that is stable for certain. All groups must have products.
-  double find(NodalState& nodes, const Groups& groups, double bound);
+  double find(NodalState& nodes, const ElementGroups& groups, double bound);
   /// Products of the last search.
   int products() const { return products_; }
 
  private:
   void start(const NodalState& nodes);
-  void multiply(NodalState& nodes, const Groups& groups, double stiffness, double damping);
+  void multiply(NodalState& nodes, const ElementGroups& groups, double stiffness, double damping);
   double product(const std::vector<Vec3>& a, const std::vector<Vec3>& b) const;
 
   const Mesh& mesh_;

@@ -7,18 +7,16 @@
 
 namespace tenon {
 
-std::unique_ptr<ElementGroup> make_element_group(std::size_t block, const Mesh& mesh,
+std::unique_ptr<ElementGroup> make_element_group(std::size_t block, const ElementBlock& elements,
+                                                 std::span<const Vec3> coordinates,
                                                  const MechanicsOptions::Block& description,
                                                  const MechanicsOptions& options) {
   using Formulation = MechanicsOptions::Formulation;
-  const ElementBlock& elements = mesh.blocks[block];
   if (topology(elements.kind).dimension == 2)
-    return make_shell_group(block, elements, mesh.coordinates, description.material, description.shell,
-                            options.viscosity);
+    return make_shell_group(block, elements, coordinates, description.material, description.shell, options.viscosity);
   if (elements.kind == ElementKind::hex8 && description.formulation != Formulation::full)
-    return make_hex8_group(block, elements, mesh.coordinates, description.material, options.hourglass,
-                           options.viscosity);
-  return make_solid_group(block, elements, mesh.coordinates, description.material, options.viscosity,
+    return make_hex8_group(block, elements, coordinates, description.material, options.hourglass, options.viscosity);
+  return make_solid_group(block, elements, coordinates, description.material, options.viscosity,
                           description.formulation != Formulation::full);
 }
 

@@ -10,7 +10,8 @@
 namespace tenon {
 
 /// Chosen by kind, material and options, once. Throws Error(usage) if they do not fit.
-std::unique_ptr<ElementGroup> make_element_group(std::size_t block, const Mesh& mesh,
+std::unique_ptr<ElementGroup> make_element_group(std::size_t block, const ElementBlock& elements,
+                                                 std::span<const Vec3> coordinates,
                                                  const MechanicsOptions::Block& description,
                                                  const MechanicsOptions& options);
 

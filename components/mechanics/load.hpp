@@ -7,13 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "components/mechanics/element_group.hpp"
+#include "components/mechanics/element_groups.hpp"
 #include "components/mechanics/nodal_state.hpp"
 #include "framework/mesh/mesh.hpp"
 
 namespace tenon {
-
-using ElementGroups = std::vector<std::unique_ptr<ElementGroup>>;
 
 /// What a load may look at: the present positions and the velocities of half a step before.
 struct LoadState {

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "components/mechanics/nodal_kick.hpp"
+
 namespace tenon {
 
 Mechanics::Mechanics(std::string name, std::shared_ptr<const Mesh> mesh, MechanicsOptions options)
@@ -26,36 +28,37 @@ Mechanics::Mechanics(std::string name, std::shared_ptr<const Mesh> mesh, Mechani
 void Mechanics::initialize() {
   phases_ = {&phase("forces"), &phase("update"), &phase("halo"), &phase("reduce")};
   if (!loaded_) set_velocities();
-  compute_forces(0);
+  forget_steps();
+  compute_forces(0, 0);
   choose_step();
+  if (options_.time_step.subcycling > 1 && !subcycling_) choose_levels();
+  if (subcycling_) report_levels();
 }
 
 void Mechanics::advance(double dt) {
-  kick(dt);
-  refresh_ghosts();
-  drift(dt);
-  compute_forces(dt);
+  const int steps = short_steps();
+  const double h = dt / steps;
+  forget_steps();
+  for (int step = 0; step < steps; ++step) take_step(step, time() + step * h, h);
   set_time(time() + dt);
   started_ = true;
   ++steps_;
-  work_done_ += owned_elements_;
   choose_step();
+  if (subcycling_ && levels_are_due()) choose_levels();
+}
+
+void Mechanics::take_step(int step, double now, double dt) {
+  kick(step, now, dt);
+  refresh_ghosts();
+  drift(step, dt);
+  compute_forces(step + 1, dt);
 }
 
 namespace {
 
-/// v* = v- - kick f/m on every node; books the work of the nodes against f.
 void kick_vectors(std::span<Vec3> velocity, std::span<const ForceRow> force, std::span<const double> inverse_mass,
                   double kick, std::vector<double>& work) {
-  for (std::size_t n = 0; n < velocity.size(); ++n) {
-    const double* f = force[n].v;
-    const double scale = kick * inverse_mass[n];
-    Vec3& v = velocity[n];
-    const Vec3 kicked{v[0] - scale * f[0], v[1] - scale * f[1], v[2] - scale * f[2]};
-    const double power = f[0] * (v[0] + kicked[0]) + f[1] * (v[1] + kicked[1]) + f[2] * (v[2] + kicked[2]);
-    work[n] += 0.5 * kick * power;
-    v = kicked;
-  }
+  for (std::size_t n = 0; n < velocity.size(); ++n) kick_node(velocity[n], force[n], inverse_mass[n], kick, work[n]);
 }
 
 }  // namespace
@@ -63,25 +66,29 @@ void kick_vectors(std::span<Vec3> velocity, std::span<const ForceRow> force, std
 // Ghosts are replaced by what their owners find. Conditions correct v* and the work; loads book theirs when the
 // velocities are final. Nodes of rigid bodies have the body's velocity before and after the kick, then that which takes
 // them to its next place.
-void Mechanics::kick(double dt) {
+void Mechanics::kick(int step, double now, double dt) {
   const ScopedTimer timer(*phases_.update);
   if (relaxation_ && relaxation_->begin(nodes_)) previous_dt_ = 0;
   const double kick = 0.5 * (previous_dt_ + dt);
-  if (!loads_->empty()) loads_->apply(nodes_, groups_, time(), kick);
+  if (!loads_->empty()) loads_->apply(nodes_, groups_, now, kick);
   if (!rigid_->empty()) set_rigid_rates();
   if (!loads_->empty()) loads_->remember(nodes_);
   if (!ties_->empty()) ties_->gather(nodes_);
-  if (!rigid_->empty()) rigid_->kick(nodes_, time(), kick, dt);
-  kick_vectors(nodes_.velocity(), nodes_.force, nodes_.inverse_mass, kick, nodes_.internal_work);
-  if (nodes_.has_rotations())
-    kick_vectors(nodes_.spin(), nodes_.moment, nodes_.inverse_inertia, kick, nodes_.internal_work);
-  conditions_.apply(nodes_, time(), kick, dt);
+  if (!rigid_->empty()) rigid_->kick(nodes_, now, kick, dt);
+  if (subcycling_) {
+    subcycling_->kick(nodes_, step, kick);
+  } else {
+    kick_vectors(nodes_.velocity(), nodes_.force, nodes_.inverse_mass, kick, nodes_.internal_work);
+    if (nodes_.has_rotations())
+      kick_vectors(nodes_.spin(), nodes_.moment, nodes_.inverse_inertia, kick, nodes_.internal_work);
+  }
+  conditions_.apply(nodes_, now, kick, dt);
   if (!rigid_->empty())
     set_rigid_rates();
   else if (!ties_->empty())
     ties_->follow(nodes_);
   if (!loads_->empty()) loads_->book(nodes_, kick);
-  if (relaxation_) relaxation_->watch(nodes_, *loads_, kick, previous_dt_, dt, time());
+  if (relaxation_) relaxation_->watch(nodes_, *loads_, kick, previous_dt_, dt, now);
   if (rigid_->empty()) return;
   rigid_->move(nodes_, dt);
   if (!ties_->empty()) ties_->follow(nodes_);
@@ -104,33 +111,68 @@ void Mechanics::refresh_ghosts() {
   mesh_->node_halo.forward(std::span(items).first(nodes_.has_rotations() ? 2 : 1));
 }
 
-void Mechanics::drift(double dt) {
+void Mechanics::drift(int step, double dt) {
   const ScopedTimer timer(*phases_.update);
+  if (subcycling_) {
+    subcycling_->drift(nodes_, step, dt);
+    return;
+  }
   const std::span<Vec3> position = nodes_.position();
   const std::span<const Vec3> velocity = nodes_.velocity();
   for (std::size_t n = 0; n < nodes_.size(); ++n) position[n] = position[n] + dt * velocity[n];
 }
 
-// Advances the elements over the step of length dt that ends at the present positions; forces belong to these.
-void Mechanics::compute_forces(double dt) {
-  const ScopedTimer timer(*phases_.forces);
-  std::fill(nodes_.force.begin(), nodes_.force.end(), ForceRow{});
-  std::fill(nodes_.moment.begin(), nodes_.moment.end(), ForceRow{});
+void Mechanics::forget_steps() {
   local_least_ = {std::numeric_limits<double>::infinity(), no_index};
+  local_shortest_ = local_least_.step;
+}
+
+// Advances the elements over the short step of length dt that ends at the present positions, or, of higher levels, over
+// their own steps if they end there; forces belong to these positions. `step` counts from 1 within a step of the
+// longest.
+void Mechanics::compute_forces(int step, double dt) {
+  const ScopedTimer timer(*phases_.forces);
+  if (subcycling_) {
+    subcycling_->clear_forces(nodes_, step);
+  } else {
+    std::fill(nodes_.force.begin(), nodes_.force.end(), ForceRow{});
+    std::fill(nodes_.moment.begin(), nodes_.moment.end(), ForceRow{});
+  }
+  const int levels = subcycling_ ? subcycling_->greatest() + 1 : 1;
+  for (int level = 0; level < levels; ++level) {
+    const std::int64_t elements = owned_elements_[static_cast<std::size_t>(level)];
+    if (!Subcycling::is_due(level, step)) {
+      work_spared_ += elements;
+      continue;
+    }
+    advance_groups(level, dt * (1 << level));
+    if (dt > 0) work_done_ += elements;
+  }
+  if (dt > 0) previous_dt_ = dt;
+}
+
+void Mechanics::advance_groups(int level, double dt) {
+  const NodeArrays arrays = subcycling_ ? subcycling_->begin(level, nodes_, dt) : nodes_.arrays();
+  const auto moves = [&](std::size_t g) {
+    return !groups_[g]->rigid && (!subcycling_ || subcycling_->level_of_group(g) == level);
+  };
   for (int pass = 0; pass + 1 < passes_; ++pass)
-    for (const auto& group : groups_) {
-      if (group->rigid || pass + 1 >= group->passes()) continue;
-      group->prepare(pass, nodes_.arrays(), dt);
-      exchange_nodal_values(*group);
+    for (std::size_t g = 0; g < groups_.size(); ++g) {
+      if (!moves(g) || pass + 1 >= groups_[g]->passes()) continue;
+      groups_[g]->prepare(pass, arrays, dt);
+      exchange_nodal_values(*groups_[g]);
     }
   for (std::size_t g = 0; g < groups_.size(); ++g) {
-    if (groups_[g]->rigid) continue;
-    const GroupStep found = groups_[g]->advance(nodes_.arrays(), dt);
+    if (!moves(g)) continue;
+    GroupStep found = groups_[g]->advance(arrays, dt);
     const double shrink = std::min(local_least_.shrink, found.shrink);
+    local_shortest_ = std::min(local_shortest_, found.step);
+    if (level > 0 && found.step > 0)  // a code is no step
+      found.step *= std::min(1.0, slow_share / options_.time_step.scale) / (1 << level);
     if (found.step < local_least_.step) local_least_ = found, local_least_group_ = g;
     local_least_.shrink = shrink;
   }
-  if (dt > 0) previous_dt_ = dt;
+  if (subcycling_) subcycling_->end(level, nodes_);
 }
 
 void Mechanics::exchange_nodal_values(ElementGroup& group) {
@@ -143,22 +185,35 @@ void Mechanics::exchange_nodal_values(ElementGroup& group) {
 void Mechanics::choose_step() {
   const ScopedTimer timer(*phases_.reduce);
   last_good_ = limit_;
-  std::array<double, 2> least{local_least_.step, local_least_.shrink};
+  std::array<double, 3> least{local_least_.step, local_least_.shrink, local_shortest_};
   mesh_->comm.min(std::span<double>(least));
-  estimate_ = least[0];
+  estimate_ = least[0], shortest_ = least[2];
   if (estimate_ < 0) fail(estimate_);
   if (first_estimate_ == 0) first_estimate_ = estimate_;
   if (estimate_ < options_.time_step.collapse * first_estimate_) fail(estimate_);
   limit_ = std::max(estimate_, verified_step_ * least[1]);
   if (assembled_ && search_is_due()) search_step();
-  stable_step_ = std::min(options_.time_step.scale * loads_->stable_step(limit_), rigid_->stable_step());
-  if (options_.time_step.maximum) stable_step_ = std::min(stable_step_, *options_.time_step.maximum);
-  if (options_.time_step.fixed) stable_step_ = *options_.time_step.fixed;
-  if (stable_step_ > 1.02 * limit_ && warnings_.empty())
-    warnings_.push_back(
-        fmt::format("{}: the time step, {:.4g} s, is {:.2f} times that which is known to be stable, {:.4g} s; this can "
-                    "be unstable (time_step.fixed, time_step.scale)",
-                    name(), stable_step_, stable_step_ / limit_, limit_));
+  stable_step_ = short_steps() * short_step(limit_);
+  warn_of_instability();
+}
+
+// What the user wants of what elements that allow `limit` allow together with everything else, s.
+double Mechanics::short_step(double limit) const {
+  const TimeStepOptions& options = options_.time_step;
+  double step = std::min(options.scale * loads_->stable_step(limit), rigid_->stable_step());
+  if (options.maximum) step = std::min(step, *options.maximum);
+  return options.fixed.value_or(step);
+}
+
+void Mechanics::warn_of_instability() {
+  const double stable = std::min(loads_->stable_step(limit_), rigid_->stable_step());
+  const double step = stable_step_ / short_steps();
+  if (warned_ || step <= 1.02 * stable) return;
+  warned_ = true;
+  warnings_.push_back(
+      fmt::format("{}: the time step, {:.4g} s, is {:.2f} times that which is known to be stable, {:.4g} s; this can "
+                  "be unstable (time_step.fixed, time_step.scale)",
+                  name(), step, step / stable, stable));
 }
 
 // A search costs some forty steps. It is done again when a tenth of what it gave may be lost, at first after 500 steps,

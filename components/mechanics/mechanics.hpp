@@ -2,12 +2,13 @@
 // Explicit finite elements: a deformable body, by central differences in time.
 #pragma once
 
+#include <deque>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "components/mechanics/assembled_step.hpp"
-#include "components/mechanics/element_group.hpp"
+#include "components/mechanics/element_groups.hpp"
 #include "components/mechanics/kinetic_relaxation.hpp"
 #include "components/mechanics/loads.hpp"
 #include "components/mechanics/mass_scaling.hpp"
@@ -15,6 +16,7 @@
 #include "components/mechanics/nodal_conditions.hpp"
 #include "components/mechanics/nodal_state.hpp"
 #include "components/mechanics/rigid_bodies.hpp"
+#include "components/mechanics/subcycling.hpp"
 #include "components/mechanics/ties.hpp"
 #include "framework/simulation/component.hpp"
 
@@ -24,6 +26,9 @@ namespace tenon {
 /// first kick over dt/2. Stresses and forces always belong to the present positions. Elements that touch a node of this
 /// rank are computed here, ghosts too, in ascending global order, so that one exchange of velocities per step is all
 /// communication, and forces are the same bits on any number of ranks.
+///
+/// With subcycling (Subcycling), what is called a step below is one of the shortest; the simulation sees one of the
+/// longest, which has 2^n of them.
 ///
 /// Energies: the work at each kick, dt f . (v- + v+)/2, is exactly the change of kinetic energy (of the half-step
 /// velocities). Internal energy is the work of all element forces less what hourglass control and viscosity took.
@@ -60,11 +65,14 @@ class Mechanics final : public Component {
   const std::vector<std::string>& warnings() const { return warnings_; }
   /// Nodal masses, kg; complete on owned nodes.
   std::span<const double> nodal_mass() const { return nodes_.mass; }
-  /// Internal forces at the present positions (resisting), N; complete on owned nodes.
+  /// Internal forces at the present positions (resisting), N; complete on owned nodes. With subcycling impulses
+  /// instead.
   std::span<const ForceRow> internal_force() const { return nodes_.force; }
   const RigidBodies& rigid_bodies() const { return *rigid_; }
   /// Null unless the options ask for it.
   const KineticRelaxation* relaxation() const { return relaxation_.get(); }
+  /// Null unless the options ask for it, and before `initialize`.
+  const Subcycling* subcycling() const { return subcycling_.get(); }
 
  private:
   // Set-up.
@@ -78,15 +86,30 @@ class Mechanics final : public Component {
   void set_velocities();
   void set_spins();
   // Phases of a step.
-  void kick(double dt);
+  void take_step(int step, double now, double dt);
+  void kick(int step, double now, double dt);
   void set_rigid_rates();
   void refresh_ghosts();
-  void drift(double dt);
-  void compute_forces(double dt);
+  void drift(int step, double dt);
+  void forget_steps();
+  void compute_forces(int step, double dt);
+  void advance_groups(int level, double dt);
   void choose_step();
+  double short_step(double limit) const;
+  void warn_of_instability();
   void search_step();
   bool search_is_due() const;
   void exchange_nodal_values(ElementGroup& group);
+  // Subcycling.
+  void choose_levels();
+  bool levels_are_due() const;
+  void split(const ElementLevels& levels);
+  std::vector<int> busy_nodes() const;
+  void save_levels(CheckpointWriter& file);
+  void load_levels(const CheckpointReader& file);
+  ElementGroup* any_group(std::size_t block) const;
+  void report_levels();
+  int short_steps() const { return subcycling_ ? subcycling_->steps() : 1; }
   // Messages.
   [[noreturn]] void fail(double code);
   std::string describe(const ElementGroup& group, LocalIndex element) const;
@@ -104,7 +127,10 @@ class Mechanics final : public Component {
   MechanicsOptions options_;
   NodalConditions conditions_;
   NodalState nodes_;
-  std::vector<std::unique_ptr<ElementGroup>> groups_;  // as the blocks of the mesh
+  ElementGroups groups_;
+  std::deque<ElementBlock> parts_;          // elements of one block and level, where blocks are split
+  ElementLevels levels_;                    // as they are split
+  std::unique_ptr<Subcycling> subcycling_;  // if asked for
   std::unique_ptr<Loads> loads_;
   std::unique_ptr<KineticRelaxation> relaxation_;  // if asked for
   std::unique_ptr<RigidBodies> rigid_;
@@ -113,7 +139,8 @@ class Mechanics final : public Component {
 
   double previous_dt_ = 0;  // of the last half step
   double stable_step_ = 0;  // what time_step() says
-  double estimate_ = 0;     // of the elements, without scale
+  double estimate_ = 0;     // of the elements, without scale; of a short step
+  double shortest_ = 0;     // least of what the elements allow, whatever their level
   double limit_ = 0;        // of the mesh, without scale; the estimate of the elements where that is not followed
   double last_good_ = 0;    // the limit before, for messages
   double first_estimate_ = 0;
@@ -121,11 +148,16 @@ class Mechanics final : public Component {
   double verified_step_ = 0;                  // of the mesh when it was last searched, s
   std::int64_t searched_at_ = 0, search_interval_ = 0;
   GroupStep local_least_{};  // of this rank
+  double local_shortest_ = 0;
+  double leveled_shortest_ = 0;  // when the levels were chosen
+  std::int64_t leveled_at_ = 0;
   std::size_t local_least_group_ = 0;
   int passes_ = 1;  // of the group with the most
   bool started_ = false;
   bool loaded_ = false;
-  std::int64_t work_done_ = 0, owned_elements_ = 0, steps_ = 0;
+  bool warned_ = false;  // of an unstable step
+  std::int64_t work_done_ = 0, work_spared_ = 0, steps_ = 0;
+  std::vector<std::int64_t> owned_elements_;  // by level
   std::vector<std::string> warnings_;
 
   struct Phases {

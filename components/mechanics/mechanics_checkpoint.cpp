@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // State in a checkpoint. Masses and forces are computed again, to the same bits.
+#include <fmt/core.h>
+
+#include <algorithm>
 #include <sstream>
 
 #include "components/mechanics/mechanics.hpp"
@@ -24,15 +27,15 @@ constexpr int every_rank = -1;
 
 /// Collective. The state of a group, the same list on every rank: one without elements of the block cannot tell from
 /// its empty arrays which ones there are.
-std::vector<StateArray> agreed_state(const Communicator& comm, ElementGroup& group) {
-  const int root = static_cast<int>(comm.min(static_cast<std::int64_t>(group.size() > 0 ? comm.rank() : comm.size())));
+std::vector<StateArray> agreed_state(const Communicator& comm, ElementGroup* group) {
+  const int root = static_cast<int>(comm.min(static_cast<std::int64_t>(group ? comm.rank() : comm.size())));
   if (root == comm.size()) return {};
   std::vector<StateArray> arrays;
-  if (group.size() > 0) arrays = group.state();
+  if (group) arrays = group->state();
   std::string list;
   for (const StateArray& array : arrays) list += array.name + ' ' + std::to_string(array.rows) + '\n';
   comm.broadcast(list, root);
-  if (group.size() > 0) return arrays;
+  if (group) return arrays;
   std::istringstream text(list);
   StateArray array{"", 0, nullptr};
   while (text >> array.name >> array.rows) arrays.push_back(array);
@@ -80,17 +83,23 @@ void Mechanics::save(CheckpointWriter& file) {
   }
   for (const Loads::Row& row : loads_->rows())
     node_array(row.name, 1, [&](std::size_t n, std::size_t) { return row.work[n]; });
-  for (const auto& group : groups_) {
-    const ElementBlock& block = group->elements();
+  if (subcycling_) save_levels(file);
+  for (std::size_t b = 0; b < mesh_->blocks.size(); ++b) {
+    const ElementBlock& block = mesh_->blocks[b];
     chosen.clear();
     const GlobalOrder elements(mesh_->comm,
                                chosen_ids(block.ids, block.owners, mesh_->comm.rank(), block.first_id, chosen),
                                block.global_count);
-    for (const StateArray& array : agreed_state(mesh_->comm, *group)) {
+    GroupStates states;
+    const std::vector<StateArray> agreed = agreed_state(mesh_->comm, any_group(b));
+    for (std::size_t a = 0; a < agreed.size(); ++a) {
       values.clear();
-      for (const LocalIndex e : chosen)
-        for (int row = 0; row < array.rows; ++row) values.push_back(array.at(e, row));
-      file.array(key(block.name + "." + array.name), elements, values, array.rows);
+      for (const LocalIndex e : chosen) {
+        const ElementGroups::Place place = groups_.place(b, e);
+        const StateArray& array = states.of(*place.group)[a];
+        for (int row = 0; row < array.rows; ++row) values.push_back(array.at(place.element, row));
+      }
+      file.array(key(block.name + "." + agreed[a].name), elements, values, agreed[a].rows);
     }
   }
 }
@@ -133,22 +142,107 @@ void Mechanics::load(const CheckpointReader& file) {
   }
   for (Loads::Row& row : loads_->rows())
     node_array(row.name, 1, [&](std::size_t n, std::size_t) -> double& { return row.work[n]; });
-  for (const auto& group : groups_) {
-    const ElementBlock& block = group->elements();
+  if (options_.time_step.subcycling > 1 && file.has(key("leveled_at"))) load_levels(file);
+  for (std::size_t b = 0; b < mesh_->blocks.size(); ++b) {
+    const ElementBlock& block = mesh_->blocks[b];
     chosen.clear();
     const GlobalOrder elements(mesh_->comm, chosen_ids(block.ids, block.owners, every_rank, block.first_id, chosen),
                                block.global_count);
-    for (const StateArray& array : agreed_state(mesh_->comm, *group)) {
-      values.resize(block.ids.size() * static_cast<std::size_t>(array.rows));
-      file.array(key(block.name + "." + array.name), elements, values, array.rows);
+    GroupStates states;
+    const std::vector<StateArray> agreed = agreed_state(mesh_->comm, any_group(b));
+    for (std::size_t a = 0; a < agreed.size(); ++a) {
+      values.resize(block.ids.size() * static_cast<std::size_t>(agreed[a].rows));
+      file.array(key(block.name + "." + agreed[a].name), elements, values, agreed[a].rows);
       auto from = values.begin();
-      for (LocalIndex e = 0; e < block.size(); ++e)
-        for (int row = 0; row < array.rows; ++row) array.at(e, row) = *from++;
+      for (LocalIndex e = 0; e < block.size(); ++e) {
+        const ElementGroups::Place place = groups_.place(b, e);
+        const StateArray& array = states.of(*place.group)[a];
+        for (int row = 0; row < array.rows; ++row) array.at(place.element, row) = *from++;
+      }
     }
+  }
+  for (const auto& group : groups_) {
     group->fill_padding();
     group->verified_step = verified_step_;
   }
   loaded_ = started_ = true;
+}
+
+/// A group that has elements of a block on this rank, or null.
+ElementGroup* Mechanics::any_group(std::size_t block) const {
+  for (const auto& group : groups_)
+    if (group->block() == block && group->size() > 0) return group.get();
+  return nullptr;
+}
+
+// Levels of the elements, and where nodes between levels have been: mean velocities and spins.
+void Mechanics::save_levels(CheckpointWriter& file) {
+  const auto key = [&](const std::string& field) { return name() + "." + field; };
+  file.integer(key("leveled_at"), leveled_at_);
+  file.scalar(key("leveled_shortest"), leveled_shortest_);
+  std::vector<LocalIndex> chosen;
+  std::vector<double> values;
+  for (std::size_t b = 0; b < mesh_->blocks.size(); ++b) {
+    const ElementBlock& block = mesh_->blocks[b];
+    chosen.clear(), values.clear();
+    const GlobalOrder order(mesh_->comm,
+                            chosen_ids(block.ids, block.owners, mesh_->comm.rank(), block.first_id, chosen),
+                            block.global_count);
+    for (const LocalIndex e : chosen) values.push_back(levels_[b][static_cast<std::size_t>(e)]);
+    file.array(key(block.name + ".level"), order, values, 1);
+  }
+  chosen.clear();
+  const GlobalOrder order(mesh_->comm, chosen_ids(mesh_->node_ids, mesh_->node_owners, mesh_->comm.rank(), 0, chosen),
+                          mesh_->global_nodes);
+  std::vector<Vec3> means(nodes_.size());
+  const auto write = [&](const std::string& field, int level) {
+    values.clear();
+    for (const LocalIndex n : chosen)
+      for (const double v : means[static_cast<std::size_t>(n)]) values.push_back(v);
+    file.array(key(fmt::format("{}_{}", field, level)), order, values, 3);
+    std::ranges::fill(means, Vec3{});
+  };
+  const auto keep = [&](LocalIndex n, const Vec3& v) { means[static_cast<std::size_t>(n)] = v; };
+  for (int level = 1; level <= subcycling_->greatest(); ++level) {
+    subcycling_->visit_means(level, keep);
+    write("mean_velocity", level);
+    if (!nodes_.has_rotations()) continue;
+    subcycling_->visit_mean_spins(level, keep);
+    write("mean_spin", level);
+  }
+}
+
+void Mechanics::load_levels(const CheckpointReader& file) {
+  const auto key = [&](const std::string& field) { return name() + "." + field; };
+  leveled_at_ = file.integer(key("leveled_at"));
+  leveled_shortest_ = file.scalar(key("leveled_shortest"));
+  std::vector<LocalIndex> chosen;
+  std::vector<double> values;
+  ElementLevels levels(mesh_->blocks.size());
+  for (std::size_t b = 0; b < mesh_->blocks.size(); ++b) {
+    const ElementBlock& block = mesh_->blocks[b];
+    chosen.clear();
+    const GlobalOrder order(mesh_->comm, chosen_ids(block.ids, block.owners, every_rank, block.first_id, chosen),
+                            block.global_count);
+    values.resize(block.ids.size());
+    file.array(key(block.name + ".level"), order, values, 1);
+    levels[b].assign(values.begin(), values.end());
+  }
+  split(levels);
+  chosen.clear();
+  const GlobalOrder order(mesh_->comm, chosen_ids(mesh_->node_ids, mesh_->node_owners, every_rank, 0, chosen),
+                          mesh_->global_nodes);
+  values.resize(3 * nodes_.size());
+  const auto take = [&](LocalIndex n, Vec3& v) {
+    std::copy_n(values.begin() + 3 * static_cast<std::ptrdiff_t>(n), 3, v.begin());
+  };
+  for (int level = 1; level <= subcycling_->greatest(); ++level) {
+    file.array(key(fmt::format("mean_velocity_{}", level)), order, values, 3);
+    subcycling_->visit_means(level, take);
+    if (!nodes_.has_rotations()) continue;
+    file.array(key(fmt::format("mean_spin_{}", level)), order, values, 3);
+    subcycling_->visit_mean_spins(level, take);
+  }
 }
 
 std::int64_t Mechanics::memory() const {
@@ -156,6 +250,7 @@ std::int64_t Mechanics::memory() const {
       conditions_.memory() + loads_->memory() + static_cast<std::int64_t>(nodes_.size() * (6 + 3 + 4) * sizeof(double));
   if (nodes_.has_rotations()) bytes += static_cast<std::int64_t>(nodes_.size() * (3 + 2 + 4) * sizeof(double));
   for (const auto& group : groups_) bytes += group->memory();
+  if (subcycling_) bytes += subcycling_->memory();
   return bytes;
 }
 

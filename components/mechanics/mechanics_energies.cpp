@@ -8,7 +8,7 @@ namespace {
 
 /// Calls visit(group, element) for the elements that this rank owns.
 template <typename Visit>
-void for_owned(const Mesh& mesh, const std::vector<std::unique_ptr<ElementGroup>>& groups, Visit visit) {
+void for_owned(const Mesh& mesh, const ElementGroups& groups, Visit visit) {
   for (const auto& group : groups)
     for (LocalIndex e = 0; e < group->size(); ++e)
       if (group->elements().owners[static_cast<std::size_t>(e)] == mesh.comm.rank()) visit(*group, e);

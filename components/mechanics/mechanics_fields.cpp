@@ -28,9 +28,9 @@ ExportPort Mechanics::element_port(std::string field, int components, std::strin
   return {{std::move(field), Location::element, FieldKind::point_value, components, std::move(unit)},
           [this, components, value](std::span<double> out) {
             auto to = out.begin();
-            for (const auto& group : groups_)
-              for (LocalIndex e = 0; e < group->size(); ++e)
-                for (int c = 0; c < components; ++c) *to++ = value(*group, e, c);
+            groups_.in_mesh_order([&](const ElementGroup& group, LocalIndex e) {
+              for (int c = 0; c < components; ++c) *to++ = value(group, e, c);
+            });
           }};
 }
 
@@ -91,8 +91,8 @@ std::vector<ImportPort> Mechanics::imports() {
 // What comes before the first step is the temperature at which the body is free of stress, unless the user gave one.
 void Mechanics::take_temperature(std::span<const double> values) {
   auto from = values.begin();
+  groups_.in_mesh_order([&](ElementGroup& group, LocalIndex e) { value_of(group.temperature, e) = *from++; });
   for (const auto& group : groups_) {
-    for (LocalIndex e = 0; e < group->size(); ++e) value_of(group->temperature, e) = *from++;
     group->fill_padding();
     if (!started_ && !options_.initial_temperature) group->temperature_used = group->temperature;
   }
@@ -105,12 +105,11 @@ double Mechanics::heat(const ElementGroup& group, LocalIndex element) {
 
 void Mechanics::give_heat(std::span<double> values) {
   auto to = values.begin();
-  for (const auto& group : groups_)
-    for (LocalIndex e = 0; e < group->size(); ++e) {
-      const double now = heat(*group, e);
-      *to++ = now - value_of(group->heat_given, e);
-      value_of(group->heat_given, e) = now;
-    }
+  groups_.in_mesh_order([&](ElementGroup& group, LocalIndex e) {
+    const double now = heat(group, e);
+    *to++ = now - value_of(group.heat_given, e);
+    value_of(group.heat_given, e) = now;
+  });
 }
 
 std::vector<HistoryValue> Mechanics::history_values() {
@@ -151,6 +150,7 @@ std::vector<SkipCount> Mechanics::skips() const {
   if (!conditions_.has_motions() && !conditions_.has_walls())
     skipped.push_back({"prescribed motions and walls (none)", steps_});
   if (loads_->empty()) skipped.push_back({"loads (none)", steps_});
+  if (subcycling_) skipped.push_back({"element updates (subcycling)", work_spared_});
   return skipped;
 }
 

@@ -42,12 +42,20 @@ StepLimiter Mechanics::limiter() {
     if (comm.rank() == root) reason = describe(*groups_[local_least_group_], local_least_.element);
     comm.broadcast(reason, root);
   }
-  if (options_.time_step.fixed)
-    reason = fmt::format("time_step.fixed ({:.3g} of the step of {})", stable_step_ / limit_, reason);
-  else if (stable_step_ < options_.time_step.scale * limit_)
+  const TimeStepOptions& options = options_.time_step;
+  const double step = short_step(limit_), with_loads = loads_->stable_step(limit_);
+  if (options.fixed)
+    reason = fmt::format("time_step.fixed ({:.3g} of the step of {})", step / limit_, reason);
+  else if (options.maximum && step == *options.maximum)
     reason = "time_step.maximum";
+  else if (step == rigid_->stable_step())
+    reason = "the spin of a rigid body";
+  else if (with_loads < limit_)
+    reason = fmt::format("springs, dashpots or damping ({:.3g} of the step without them, that of {})",
+                         with_loads / limit_, reason);
   else if (limit_ > estimate_)
     reason = fmt::format("the whole mesh ({:.3g} times the step that {} allows alone)", limit_ / estimate_, reason);
+  if (short_steps() > 1) reason = fmt::format("{} subcycled steps; {}", short_steps(), reason);
   return {stable_step_, reason};
 }
 

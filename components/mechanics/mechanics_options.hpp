@@ -27,8 +27,9 @@ struct TimeStepOptions {
     automatic,  ///< that of the assembled mesh where all elements allow it
     element     ///< the least that an element alone allows
   } estimate = Estimate::automatic;
-  double scale = 0.9;           ///< of the estimate
-  std::optional<double> fixed;  ///< s; the estimate is then only watched
+  double scale = 0.9;             ///< of the estimate
+  int subcycling = 1;             ///< greatest ratio of the longest to the shortest step of elements, a power of two
+  std::optional<double> fixed;    ///< s; the estimate is then only watched
   std::optional<double> maximum;  ///< s
   double collapse = 1e-4;         ///< the run stops when the estimate falls below this share of the first one
 };

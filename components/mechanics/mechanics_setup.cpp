@@ -17,14 +17,13 @@ void Mechanics::make_groups() {
                                     [&](const MechanicsOptions::Block& o) { return o.name == block.name; });
     if (found == options_.blocks.end())
       throw Error(ExitCode::usage, fmt::format("{}: block '{}' of the mesh has no material", name(), block.name));
-    groups_.push_back(make_element_group(b, *mesh_, *found, options_));
+    groups_.push_back(make_element_group(b, mesh_->blocks[b], mesh_->coordinates, *found, options_));
     ElementGroup& group = *groups_.back();
     passes_ = std::max(passes_, group.passes());
     for (LocalIndex e = 0; e < group.size() && !error; ++e)
       if (!(value_of(group.mass, e) > 0))
         error = Error(ExitCode::geometry,
                       fmt::format("{}: {} has no positive volume; check the mesh", name(), describe(group, e)));
-    for (const int owner : block.owners) owned_elements_ += owner == mesh_->comm.rank() ? 1 : 0;
     const std::optional<ThermalProperties>& thermal = found->material.thermal;
     for (const RigidBody& body : options_.loads.rigid_bodies)
       group.rigid = group.rigid || std::ranges::find(body.blocks, block.name) != body.blocks.end();
@@ -40,6 +39,9 @@ void Mechanics::make_groups() {
     if (group.model().needs_deformation_gradient()) nodes_.keep_reference();
   }
   mesh_->comm.throw_if_any(error);
+  owned_elements_.assign(1, std::int64_t{0});
+  for (const ElementBlock& block : mesh_->blocks)
+    owned_elements_[0] += std::ranges::count(block.owners, mesh_->comm.rank());
 }
 
 void Mechanics::sum_masses() {
@@ -55,6 +57,10 @@ void Mechanics::sum_masses() {
 // The limit of the assembled mesh is sought only where it decides and every element has its part in it.
 void Mechanics::follow_limit() {
   const TimeStepOptions& options = options_.time_step;
+  if (options.subcycling > 1) {  // the assembled mesh has no one step then
+    for (const auto& group : groups_) group->steps.resize(group->mass.size());
+    return;
+  }
   if (options.fixed || options.estimate == TimeStepOptions::Estimate::element) return;
   if (!std::ranges::all_of(groups_, [](const auto& group) { return group->has_product(); })) return;
   if (!ties_->empty() || !rigid_->empty()) return;  // masses that are not their nodes' own
@@ -73,6 +79,7 @@ void Mechanics::set_loads() {
                                      ": mass_scaling changes the heat capacity of elements, which heat: adiabatic "
                                      "needs; use one of them, or heat: exported");
   added_mass_ = scale_masses(*mesh_, *options.mass_scaling, options_.time_step.scale, groups_, nodes_);
+  if (added_mass_.elements == 0) return;
   warnings_.push_back(fmt::format("{}: mass scaling added {:.4g} kg, {:.3g} % of the mass of the body, in {} elements",
                                   name(), added_mass_.added, 100 * added_mass_.added / added_mass_.before,
                                   added_mass_.elements));
@@ -92,6 +99,10 @@ void Mechanics::set_constraints() {
 }
 
 void Mechanics::refuse_misfits() const {
+  if (options_.time_step.subcycling > 1 && (options_.loads.relaxation || options_.loads.damping.stiffness > 0))
+    throw Error(ExitCode::usage,
+                fmt::format("{}: {} needs the forces of all elements in each step; use time_step.subcycling: 1", name(),
+                            options_.loads.relaxation ? "dynamic_relaxation" : "damping.stiffness"));
   if (!rigid_->empty() && options_.loads.relaxation)
     throw Error(ExitCode::usage, name() + ": dynamic_relaxation does not know rigid bodies; fix the nodes instead");
   std::optional<Error> error;

@@ -310,6 +310,14 @@ void NodalConditions::apply(NodalState& nodes, double time, double kick, double 
   if (nodes.has_rotations() && !rotations_.empty()) rotations_.apply(nodes, time, kick, dt, boundary_work_);
 }
 
+std::vector<LocalIndex> NodalConditions::nodes() const {
+  std::vector<LocalIndex> nodes;
+  for (const Constrained& entry : constrained_) nodes.push_back(entry.node);
+  for (const Standing& entry : standing_) nodes.push_back(entry.node);
+  rotations_.add_nodes(nodes);
+  return nodes;
+}
+
 std::int64_t NodalConditions::memory() const {
   return static_cast<std::int64_t>(constrained_.size() * sizeof(Constrained) + standing_.size() * sizeof(Standing) +
                                    (boundary_work_.size() + wall_work_.size()) * sizeof(double) +

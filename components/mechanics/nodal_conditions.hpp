@@ -34,6 +34,8 @@ class NodalConditions {
   /// J since the start, of all local nodes (zero on ghosts); empty where the scene has no motions or walls.
   std::vector<double>& boundary_work() { return boundary_work_; }
   std::vector<double>& wall_work() { return wall_work_; }
+  /// Local nodes that any of them acts on, some more than once.
+  std::vector<LocalIndex> nodes() const;
   std::int64_t memory() const;
 
  private:

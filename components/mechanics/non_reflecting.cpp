@@ -10,7 +10,7 @@ namespace tenon {
 void add_non_reflecting(const Mesh& mesh, const NonReflecting& boundary, const ElementGroups& groups,
                         std::span<SymmetricTensor<double>> absorbing) {
   for (const LoadedSide& side : faces_of_sets(mesh, boundary.side_sets, boundary.label)) {
-    const ElementGroup& group = *groups[static_cast<std::size_t>(side.block)];
+    const ElementGroup& group = groups.group_of(static_cast<std::size_t>(side.block), side.element);
     const Elasticity& elastic = group.model().elasticity();
     const double density = group.material().density, shear = elastic.shear_modulus();
     const double along = std::sqrt(density * (elastic.lame_lambda() + 2 * shear)), across = std::sqrt(density * shear);

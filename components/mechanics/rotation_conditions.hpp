@@ -21,6 +21,9 @@ class RotationConditions {
   RotationConditions(const Mesh& mesh, const std::vector<PrescribedMotion>& motions);
 
   bool empty() const { return entries_.empty(); }
+  void add_nodes(std::vector<LocalIndex>& nodes) const {
+    for (const Entry& entry : entries_) nodes.push_back(entry.node);
+  }
   /// Makes the spins at the start compatible with what is held.
   void start(std::span<Vec3> spin) const;
   /// Local. After the kick over `kick` seconds, for the step of length dt from `time`; adds the work of the moments

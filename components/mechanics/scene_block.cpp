@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <bit>
 
 #include "components/mechanics/element_kinds.hpp"
 #include "components/mechanics/load_scene.hpp"
@@ -106,7 +107,7 @@ void read_blocks(const Value& value, const SceneReader& reader, const Materials&
                                            scene::suggestion(name, names)));
 }
 
-void read_control(const Value& value, MechanicsOptions& options) {
+void read_control(const Value& value, MechanicsOptions& options, Diagnostics& diagnostics) {
   const std::string& heat = value.text("heat");
   options.heat = heat == "adiabatic" ? HeatMode::adiabatic : heat == "exported" ? HeatMode::exported : HeatMode::none;
   if (value.has("initial_temperature")) options.initial_temperature = value.real("initial_temperature");
@@ -130,6 +131,9 @@ void read_control(const Value& value, MechanicsOptions& options) {
     options.time_step.scale = step.real("scale");
     if (step.text("estimate") == "element") options.time_step.estimate = TimeStepOptions::Estimate::element;
     if (step.has("fixed")) options.time_step.fixed = step.real("fixed");
+    options.time_step.subcycling = static_cast<int>(step.integer("subcycling"));
+    if (!std::has_single_bit(static_cast<unsigned>(options.time_step.subcycling)))
+      diagnostics.error(step.where("subcycling"), "subcycling: expected a power of two: 1, 2, 4, 8, ...");
     if (step.has("maximum")) options.time_step.maximum = step.real("maximum");
   }
 }
@@ -247,7 +251,7 @@ MechanicsOptions read_mechanics(const Value& value, const MeshSummary& mesh, con
                                 Diagnostics& diagnostics) {
   const SceneReader reader{mesh, diagnostics};
   MechanicsOptions options;
-  read_control(value, options);
+  read_control(value, options, diagnostics);
   read_blocks(value, reader, materials, options);
   read_initial(value, reader, options);
   read_motions(value, reader, options.motions);

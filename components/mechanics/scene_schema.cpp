@@ -65,6 +65,10 @@ Schema time_step_schema() {
            "`element`: the least step that an element alone allows, up to a third shorter.",
            "automatic");
   s.quantity("scale", "1", "Share of the stable step that is taken.", "0.9", {0, 2, true, false});
+  s.integer("subcycling",
+            "Greatest ratio of the longest to the shortest step of elements: 1, 2, 4, ... Each element then moves with "
+            "the longest step, in powers of two of the shortest, that it allows.",
+            "1", {1, 1024, false, false});
   s.quantity("fixed", "s", "Step to take whatever the elements allow.", "", Range::positive());
   s.quantity("maximum", "s", "Greatest step.", "", Range::positive());
   s.at_most_one({"fixed", "maximum"});

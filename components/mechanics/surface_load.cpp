@@ -95,7 +95,8 @@ void SurfaceForce::add_forces(const LoadState& state, std::span<ForceRow> force)
   const bool pressure = load_.kind == SurfaceLoad::Kind::pressure;
   const std::span<const Vec3> positions = dead_load ? reference_ : state.nodes.position();
   for (const LoadedSide& side : sides_) {
-    if (!state.groups[static_cast<std::size_t>(side.block)]->alive(side.element)) continue;
+    const ElementGroups::Place place_of = state.groups.place(static_cast<std::size_t>(side.block), side.element);
+    if (!place_of.group->alive(place_of.element)) continue;
     for_quadrature(side, positions, [&](const auto& shape, const Vec3& place, const Vec3& area) {
       const auto value = [&](std::size_t c) { return load_.value[c](state.time, place); };
       const Vec3 f = pressure ? -value(0) * area : norm(area) * Vec3{value(0), value(1), value(2)};

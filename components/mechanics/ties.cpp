@@ -86,6 +86,12 @@ void Ties::refuse_chains(const Mesh& mesh, const std::vector<Record>& mine) cons
   mesh.comm.throw_if_any(error);
 }
 
+std::vector<LocalIndex> Ties::face_nodes() const {
+  std::vector<LocalIndex> nodes;
+  for (const Share& share : shares_) nodes.push_back(share.to);
+  return nodes;
+}
+
 void Ties::move_mass(NodalState& nodes) const {
   std::vector<double> mass(force_.size());
   tied_.pull<double>(nodes.mass, mass);

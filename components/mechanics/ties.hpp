@@ -25,6 +25,8 @@ class Ties {
   std::int64_t count() const { return count_; }  ///< of all ranks
   /// Owned nodes that are tied, ascending.
   const std::vector<LocalIndex>& nodes() const { return nodes_; }
+  /// Owned nodes of faces that nodes are tied to, some more than once.
+  std::vector<LocalIndex> face_nodes() const;
   /// Collective. Hands the masses over (once).
   void move_mass(NodalState& nodes) const;
   /// Collective.
