@@ -13,7 +13,7 @@ namespace tenon {
 using ElementLevels = std::vector<std::vector<std::int32_t>>;
 
 /// Elements above level 0 take no more than this share of the step that they allow alone, whatever the user takes of
-/// the shortest one; see docs/decisions/0015.
+/// the shortest one; see docs/decisions/0014.
 inline constexpr double slow_share = 0.8;
 
 /// Collective. Levels 0 ... `greatest` by the steps that the elements allow (ElementGroup::steps): 2^level `step` is at
