@@ -2,18 +2,24 @@
 #include "components/mechanics/assembled_step.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace tenon {
 
 namespace {
 
-/// Between -1 and 1, by global id and direction (splitmix64 [SLF14]).
-double random_value(GlobalId id, int direction) {
-  std::uint64_t x = 3 * static_cast<std::uint64_t>(id) + static_cast<std::uint64_t>(direction) + 0x9e3779b97f4a7c15u;
+std::uint64_t mixed(std::uint64_t x) {
+  x += 0x9e3779b97f4a7c15u;
   x ^= x >> 30, x *= 0xbf58476d1ce4e5b9u;
   x ^= x >> 27, x *= 0x94d049bb133111ebu;
-  x ^= x >> 31;
+  return x ^ (x >> 31);
+}
+
+/// Between -1 and 1, by place and direction (splitmix64 [SLF14]): the same whatever the numbering.
+double random_value(const Vec3& place, std::uint64_t direction) {
+  std::uint64_t x = direction;
+  for (const double c : place) x = mixed(x ^ std::bit_cast<std::uint64_t>(c));
   return static_cast<double>(x >> 11) * 0x1p-52 - 1;
 }
 
@@ -60,8 +66,7 @@ AssembledStep::AssembledStep(const Mesh& mesh, const NodalState& nodes)
 
 void AssembledStep::start(const NodalState& nodes) {
   for (std::size_t n = 0; n < nodes.size(); ++n)
-    for (int c = 0; c < 3; ++c)
-      now_[n][static_cast<std::size_t>(c)] = nodes.mass[n] > 0 ? random_value(mesh_.node_ids[n], c) : 0;
+    for (std::size_t c = 0; c < 3; ++c) now_[n][c] = nodes.mass[n] > 0 ? random_value(mesh_.coordinates[n], c) : 0;
 }
 
 double AssembledStep::product(const std::vector<Vec3>& a, const std::vector<Vec3>& b) const {

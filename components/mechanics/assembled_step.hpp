@@ -11,8 +11,8 @@ namespace tenon {
 
 /// Finds the greatest eigenvalue of M^-1 (dt^2/4 K + dt/2 C) by the Lanczos process ([Par98], ch. 13) on products of
 /// the elements with vectors; no matrix is formed. The largest Ritz value plus its residual is taken, so the step comes
-/// out below the limit. Sums are exact and the start vector belongs to global ids: the same bits on any number of
-/// ranks.
+/// out below the limit. Sums are exact and the start vector belongs to the places of the nodes: the same bits on any
+/// number of ranks, and steps that differ by round-off only when nodes are numbered otherwise.
 class AssembledStep {
  public:
   AssembledStep(const Mesh& mesh, const NodalState& nodes);

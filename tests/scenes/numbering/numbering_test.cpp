@@ -17,15 +17,9 @@ namespace {
 
 const char* const scene_file = TENON_SOURCE_DIR "/tests/scenes/fuzz/small.yaml";
 
-/// The element's step: the search for that of the whole mesh starts from a vector that belongs to the numbering, so its
-/// steps differ by up to a per cent.
 std::vector<std::string> settings(const std::string& numbering) {
-  return {"meshes.solid.numbering=" + numbering,
-          "meshes.heat.numbering=" + numbering,
-          "meshes.solid.axial=8",
-          "meshes.solid.core=4",
-          "end_time=3 us",
-          "components.mechanics.time_step.estimate=element"};
+  return {"meshes.solid.numbering=" + numbering, "meshes.heat.numbering=" + numbering, "meshes.solid.axial=8",
+          "meshes.solid.core=4", "end_time=3 us"};
 }
 
 /// Values of a node field by the label of the node, of the nodes owned here.
