@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Patch test with the seven distorted hexahedra of [MH85]: a linear displacement gives one stress everywhere.
+#include <cstdio>
+
 #include "mechanics_case.hpp"
 
 namespace tenon::testing {
@@ -126,23 +128,28 @@ TEST(PatchTest, InnerNodesFindTheirPlaces) {
   }
 }
 
-// Only the outer nodes are moved; the inner ones find their places by dynamic relaxation.
+// Only the outer nodes are moved; the inner ones find their places by dynamic relaxation. Round-off of positions is
+// 1e-16 of the edge, and the stress that the path of the inner nodes leaves is of second order in the amplitude: a slow
+// start keeps them near their places all along, so that both stay below 1e-8 of an amplitude of 1e-6.
 TEST(PatchTest, InnerNodesByDynamicRelaxation) {
-  MechanicsOptions options = stretched("outer", TimeFunction::smooth_step(0, 1e2, 0, 0.02));  // strain 1e-7
+  constexpr double ramp = 1, share = 1e3;  // s; of the strain `amplitude`
+  MechanicsOptions options = stretched("outer", TimeFunction::smooth_step(0, share, 0, ramp));
   options.hourglass.form = HourglassOptions::Form::physical;
-  options.loads.relaxation = RelaxationOptions{2e-9, 0.02};
+  options.loads.relaxation = RelaxationOptions{1e-9, ramp};
   const auto m = body(patch(), elastic_material(1e6, 0.25, 1), options);
   m->initialize();
-  for (int s = 0; s < 20000 && !m->finished(); ++s) m->advance(m->time_step());
+  for (int s = 0; s < 100000 && !m->finished(); ++s) m->advance(m->time_step());
   ASSERT_TRUE(m->finished()) << m->ending();
   const std::vector<double> u = field(*m, "displacement");
-  // Round-off of positions over the strain is 1e-9, and the path of the inner nodes leaves stress of second order.
-  const double a = 1e2 * amplitude;
+  const double a = share * amplitude;
+  double worst = 0;
   for (std::size_t n = 0; n < 16; ++n) {
     const Vec3& x = m->mesh().coordinates[n];
     const Vec3 expected = 0.5 * a * Vec3{2 * x[0] + x[1] + x[2], x[0] + 2 * x[1] + x[2], x[0] + x[1] + 2 * x[2]};
-    for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(u[3 * n + c], expected[c], 1e-7 * a) << n;
+    for (std::size_t c = 0; c < 3; ++c) worst = std::max(worst, std::abs(u[3 * n + c] - expected[c]));
   }
+  std::printf("A01(ii) %.3g m off, %.3g of the amplitude; %s\n", worst, worst / a, m->ending().c_str());
+  EXPECT_LE(worst, 1e-8 * a);
 }
 
 }  // namespace
