@@ -12,11 +12,11 @@ namespace tenon {
 namespace {
 
 template <typename S>
-ShellModes<double> modes_at(std::span<const LocalIndex> nodes, std::span<const Vec3> x) {
+ShellModes<double> modes_at(std::span<const LocalIndex> nodes, const Vec3* x) {
   Vector<double> p[4]{};
-  const Vec3& origin = x[static_cast<std::size_t>(nodes[0])];
+  const Vec3& origin = x[nodes[0]];
   for (std::size_t i = 1; i < static_cast<std::size_t>(S::nodes); ++i) {
-    const Vec3 d = x[static_cast<std::size_t>(nodes[i])] - origin;
+    const Vec3 d = x[nodes[i]] - origin;
     p[i] = {d[0], d[1], d[2]};
   }
   return S::template modes<double>({origin[0], origin[1], origin[2]}, p[1], p[2], p[3]);
@@ -41,22 +41,27 @@ ShellGroup<S>::ShellGroup(std::size_t block, const ElementBlock& elements, std::
                           const BulkViscosity& viscosity)
     : ElementGroup(block, elements, description, layers),
       rule_(through_thickness(section.rule, layers)),
+      bending_(rule_.place.size()),
+      law_(make_layer_law(description)),
       second_moment_(rule_.second_moment()),
       offset_share_(offset_share(section)),
       offset_(section.reference == ShellSection::Reference::at ? section.offset : 0.0),
       viscosity_(viscosity),
       connectivity_(batches()),
       reference_(batches()),
-      inertia_(batches()),
+      slowness_(batches()),
       shear_share_(batches()),
       thickness_(batches()),
       stretching_(batches()),
       varying_(batches()),
-      axes_(batches()),
+      position_(coordinates.data()),
       moduli_(model().variable_stiffness() ? batches() : 0) {
   const Elasticity& elasticity = model().elasticity();
   for (int l = 0; l < lanes; ++l)
     constant_moduli_[0][l] = elasticity.lame_lambda(), constant_moduli_[1][l] = elasticity.shear_modulus();
+  plane_moduli_ = plane_moduli(elasticity.lame_lambda(), elasticity.shear_modulus());
+  for (std::size_t p = 0; p < bending_.size() && second_moment_ > 0; ++p)
+    bending_[p] = 0.25 * rule_.weight[p] * rule_.place[p] * rule_.place[p] / second_moment_;
   for (LocalIndex e = 0; e < static_cast<LocalIndex>(batches()) * lanes; ++e) {
     for (int i = 0; i < S::nodes; ++i)
       connectivity_[static_cast<std::size_t>(e / lanes)].node[i][e % lanes] = node(e, i);
@@ -64,26 +69,32 @@ ShellGroup<S>::ShellGroup(std::size_t block, const ElementBlock& elements, std::
   }
   for (Batch<2>& moduli : moduli_) moduli = constant_moduli_;
   // What turns with the material starts in the axes of the body.
-  for (std::size_t b = 0; b < batches(); ++b)
+  for (std::size_t b = 0; b < batches(); ++b) {
+    Batch<9> axes;
+    for (int l = 0; l < lanes; ++l) {
+      const LocalIndex element = std::min(static_cast<LocalIndex>(b) * lanes + l, size() - 1);
+      const Tensor<double> a = provisional_axes(modes_at<S>(elements.nodes(element), coordinates.data()));
+      const double rows[9] = {a.x.x, a.x.y, a.x.z, a.y.x, a.y.y, a.y.z, a.z.x, a.z.y, a.z.z};
+      for (int i = 0; i < 9; ++i) axes[i][l] = rows[i];
+    }
     for (int p = 0; p < layers; ++p)
       for (int lane = 0; lane < lanes; lane += pack_width) {
-        const auto row = [&](int i) { return load(axes_[b][i] + lane); };
+        const auto row = [&](int i) { return load(axes[i] + lane); };
         points.rotate_history(points.history(b, p),
                               {{row(0), row(1), row(2)}, {row(3), row(4), row(5)}, {row(6), row(7), row(8)}}, lane);
       }
+  }
 }
 
 template <typename S>
 void ShellGroup<S>::set_reference(LocalIndex element, std::span<const Vec3> coordinates, const ShellSection& section) {
   const std::span<const LocalIndex> nodes = elements().nodes(std::min(element, size() - 1));
-  const ShellModes<double> x = modes_at<S>(nodes, coordinates);
+  const ShellModes<double> x = modes_at<S>(nodes, coordinates.data());
   const Tensor<double> axes = provisional_axes(x);
   const auto b = static_cast<std::size_t>(element / lanes);
   const int l = element % lanes;
   const double start[4] = {dot(axes.x, x.xi), dot(axes.y, x.xi), dot(axes.x, x.eta), dot(axes.y, x.eta)};
   for (int i = 0; i < 4; ++i) reference_[b][i][l] = start[i];
-  const double rows[9] = {axes.x.x, axes.x.y, axes.x.z, axes.y.x, axes.y.y, axes.y.z, axes.z.x, axes.z.y, axes.z.z};
-  for (int i = 0; i < 9; ++i) axes_[b][i][l] = rows[i];
   Vec3 centre{};
   for (const LocalIndex n : nodes) centre = centre + (1.0 / S::nodes) * coordinates[static_cast<std::size_t>(n)];
   const double area = shell_area<S>(x);
@@ -92,38 +103,39 @@ void ShellGroup<S>::set_reference(LocalIndex element, std::span<const Vec3> coor
   value_of(mass, element) = t > 0 ? material().density * area * t : 0.0;  // none is reported by the component
   // Thin triangles would lock in shear: [LSV93] takes t^2/(t^2 + 0.1 h^2) of it, h^2 twice the area.
   shear_share_[b][0][l] = S::nodes == 4 ? 1.0 : 1 / (1 + 0.2 * area / (t * t));
-  inertia_[b][0][l] = rotary_inertia(area, std::max(second_moment_, 1.0 / 12) * t * t, offset_share_ * t + offset_,
-                                     model().elasticity().poissons_ratio);
+  slowness_[b][0][l] = 1 / rotary_inertia(area, std::max(second_moment_, 1.0 / 12) * t * t, offset_share_ * t + offset_,
+                                          model().elasticity().poissons_ratio);
 }
 
 template <typename S>
 void ShellGroup<S>::add_masses(const NodalMasses& masses) const {
   ElementGroup::add_masses(masses);
   for (LocalIndex e = 0; e < size(); ++e) {
-    const double share = value_of(mass, e) / S::nodes * value_of(inertia_, e);
+    const double share = value_of(mass, e) / (S::nodes * value_of(slowness_, e));
     for (const LocalIndex n : elements().nodes(e)) masses.inertia[static_cast<std::size_t>(n)] += share;
   }
 }
 
 template <typename S>
 double ShellGroup<S>::volume(LocalIndex element, std::span<const Vec3> positions) const {
-  return shell_area<S>(modes_at<S>(elements().nodes(element), positions)) * thickness(element);
+  return shell_area<S>(modes_at<S>(elements().nodes(element), positions.data())) * thickness(element);
 }
 
-namespace {
-
-/// Component of the stress s, given in the axes whose rows are `axes`, in the axes of the body.
-double in_body_axes(const Batch<9>& axes, int lane, const double (&s)[6], int component) {
+/// Component of the stress s, given in the element's own axes, in the axes of the body.
+template <typename S>
+double ShellGroup<S>::in_body_axes(LocalIndex element, const double (&s)[6], int component) const {
   constexpr int first[6] = {0, 1, 2, 0, 1, 2}, second[6] = {0, 1, 2, 1, 2, 0};
   constexpr int index[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
+  const Batch<4>& r = reference_[static_cast<std::size_t>(element / lanes)];
+  const int l = element % lanes;
+  const ShellModes<double> x = modes_at<S>(elements().nodes(element), position_);
+  const Tensor<double> a = shell_geometry<S>(x, ShellReference<double>{r[0][l], r[1][l], r[2][l], r[3][l]}).axes;
+  const double axes[3][3] = {{a.x.x, a.x.y, a.x.z}, {a.y.x, a.y.y, a.y.z}, {a.z.x, a.z.y, a.z.z}};
   double sum = 0;
   for (int i = 0; i < 3; ++i)
-    for (int k = 0; k < 3; ++k)
-      sum += axes[3 * i + first[component]][lane] * s[index[i][k]] * axes[3 * k + second[component]][lane];
+    for (int k = 0; k < 3; ++k) sum += axes[i][first[component]] * s[index[i][k]] * axes[k][second[component]];
   return sum;
 }
-
-}  // namespace
 
 template <typename S>
 double ShellGroup<S>::stress(LocalIndex element, int component) const {
@@ -132,7 +144,7 @@ double ShellGroup<S>::stress(LocalIndex element, int component) const {
   for (int p = 0; p < points.points(); ++p)
     for (int i = 0; i < 6; ++i)
       mean[i] += rule_.weight[static_cast<std::size_t>(p)] * points.stress(b, p)[i][element % lanes];
-  return in_body_axes(axes_[b], element % lanes, mean, component);
+  return in_body_axes(element, mean, component);
 }
 
 template <typename S>
@@ -140,7 +152,7 @@ double ShellGroup<S>::face_stress(LocalIndex element, int component, bool top) c
   double outer[6];
   const auto b = static_cast<std::size_t>(element / lanes);
   for (int i = 0; i < 6; ++i) outer[i] = points.stress(b, top ? points.points() - 1 : 0)[i][element % lanes];
-  return in_body_axes(axes_[b], element % lanes, outer, component);
+  return in_body_axes(element, outer, component);
 }
 
 template <typename S>
@@ -155,8 +167,7 @@ std::vector<StateArray> ShellGroup<S>::state() {
 
 template <typename S>
 std::int64_t ShellGroup<S>::memory() const {
-  const std::size_t batch =
-      sizeof(Connectivity) + sizeof(Batch<4>) + 4 * sizeof(Batch<1>) + sizeof(Batch<varying>) + sizeof(Batch<9>);
+  const std::size_t batch = sizeof(Connectivity) + sizeof(Batch<4>) + 4 * sizeof(Batch<1>) + sizeof(Batch<varying>);
   return ElementGroup::memory() + static_cast<std::int64_t>(batches() * batch + moduli_.size() * sizeof(Batch<2>));
 }
 

@@ -21,11 +21,12 @@ TENON_KERNEL PlaneModuli<R> plane_moduli(const R& lambda, const R& shear) {
 template <typename R>
 struct ShellStiffness {
   PlaneModuli<R> moduli;
-  R thickness;      ///< m
-  R second_moment;  ///< mean square of the distance from the middle surface, m^2: t^2/12
-  R offset;         ///< of the middle surface from the nodes, m
-  R shear_modulus;  ///< of transverse shear, correction included, Pa
-  R drilling;       ///< N m
+  R thickness;           ///< m
+  R second_moment;       ///< mean square of the distance from the middle surface, m^2: t^2/12
+  R offset;              ///< of the middle surface from the nodes, m
+  R shear_modulus;       ///< of transverse shear, correction included, Pa
+  R drilling;            ///< N m
+  bool centred = false;  ///< the offset is 0 in all elements
 };
 
 /// Spectral norm of the symmetric matrix of two blocks of norms a and b and a coupling of norm c, from above.
@@ -56,13 +57,13 @@ TENON_KERNEL ShellMetric<R> shell_metric(const ShellGeometry<R>& g) {
 /// natural base B B^T is nearly diagonal, so norms of its blocks are known: constant membrane strain exactly; its
 /// varying part; bending as membrane by the rotations; shear by both. `joined` puts them together, couplings by h,
 /// warping and offset included, so that the bound is safe for any shape and exact for a flat parallelogram whose
-/// rotations are slower. `inertia` is that of a node over its mass, m^2. 1/s^2. An assembly has no mode faster than its
-/// fastest element [HUG87, 7.3].
+/// rotations are slower. `slow` is the mass of a node over its inertia, 1/m^2. 1/s^2. An assembly has no mode faster
+/// than its fastest element [HUG87, 7.3].
 template <typename S, typename R>
 TENON_KERNEL R shell_frequency_squared(const ShellGeometry<R>& g, const ShellStiffness<R>& k, const R& mass,
-                                       const R& inertia) {
+                                       const R& slow) {
   const ShellMetric<R> m = shell_metric<S>(g);
-  const R unit = g.area * k.thickness / mass, slow = 1.0 / inertia;
+  const R per_mass = 1.0 / mass, unit = g.area * k.thickness * per_mass;
   const R lambda = k.moduli.lambda, shear = k.moduli.shear, p = lambda + 2.0 * shear;
   const R spread = greater_of(m.trace * m.trace - 4.0 * m.determinant, R{});
   const R constant = 0.5 * unit * (p * m.trace + square_root(p * p * spread + 4.0 * lambda * lambda * m.determinant));
@@ -73,7 +74,7 @@ TENON_KERNEL R shell_frequency_squared(const ShellGeometry<R>& g, const ShellSti
     const R up = g.h.z * g.h.z, all = up + g.h.x * g.h.x + g.h.y * g.h.y;
     const R k1 = k.moduli.young * (1.0 / 3.0) * m.g11 * m.g11, k2 = k.moduli.young * (1.0 / 3.0) * m.g22 * m.g22;
     // h = along1 a1 + along2 a2 + ..., and the gradient of what that takes from the varying strains.
-    const R along1 = dot(g.g1, g.h), along2 = dot(g.g2, g.h), along = along1 * along1 + along2 * along2;
+    const R along1 = g.along.x, along2 = g.along.y, along = along1 * along1 + along2 * along2;
     const R slope = along1 * along1 * m.g11 + along2 * along2 * m.g22 + 2.0 * along1 * along2 * m.g12;
     const R cross = k1 * ((lambda + shear) * along1 * along1 + shear * slope * m.a11) +
                     k2 * ((lambda + shear) * along2 * along2 + shear * slope * m.a22);
@@ -99,11 +100,12 @@ TENON_KERNEL R shell_frequency_squared(const ShellGeometry<R>& g, const ShellSti
     transverse = steepest + slow * (1.0 + mean + 9.0 / 72.0 * (both + m.g12) * (m.a11 + m.a22) * 0.01);
   }
   const double most = S::nodes == 4 ? 1.0 : 9.0;
-  const R drill_turn = k.drilling / mass * (0.25 * m.trace);
+  const R drill_turn = k.drilling * per_mass * (0.25 * m.trace);
   const R warp_bending = membrane * k.second_moment * turning;
   const R bending = membrane * k.second_moment * slow * (1.0 + 3.0 * turning);
   const R rotation = shear_unit * transverse;
-  const R second = bending + rotation + warp_bending + warp_shear + drill_turn + most * slow * k.drilling / mass;
+  const R second = bending + rotation + warp_bending + warp_shear + drill_turn + most * slow * k.drilling * per_mass;
+  if (k.centred) return joined(membrane, second, coupling + membrane * (warp_bending + warp_shear + drill_turn));
   // Off the middle surface, membrane strain takes up a share of the curvature.
   const R squared_offset = k.offset * k.offset, lever = squared_offset * slow * (1.0 + 3.0 * turning);
   const R stretched = 1.0 + square_root(squared_offset * turning), in_plane = membrane * stretched * stretched;

@@ -155,15 +155,17 @@ Stiffness examine(const V (&x)[4], double nu, double t, double offset) {
     const double scale = column % 6 < 3 ? 1 : 1 / std::sqrt(inertia);
     (column % 3 == 0 ? unit.x : column % 3 == 1 ? unit.y : unit.z) = scale;
     const ShellForces<double> f = shell_forces<S>(g, elastic<S>(g, k, rates<S>(g, v, w)));
+    V forces[4], moments[4];
+    S::share(f.force, forces), S::share(f.moment, moments);
     for (int i = 0; i < n; ++i) {
       const auto global = [&](const V& a) { return a.x * g.axes.x + a.y * g.axes.y + a.z * g.axes.z; };
-      const V force = global(S::share(f.force, i)), moment = (1 / std::sqrt(inertia)) * global(S::share(f.moment, i));
+      const V force = global(forces[i]), moment = (1 / std::sqrt(inertia)) * global(moments[i]);
       const double rows[6] = {force.x, force.y, force.z, moment.x, moment.y, moment.z};
       for (int c = 0; c < 6; ++c)
         matrix[static_cast<std::size_t>(6 * i + c)][static_cast<std::size_t>(column)] = n / mass * rows[c];
     }
   }
-  Stiffness result{shell_frequency_squared<S>(g, k, mass, inertia), 0, 0};
+  Stiffness result{shell_frequency_squared<S>(g, k, mass, 1 / inertia), 0, 0};
   double asymmetry = 0, greatest = 0;
   for (std::size_t i = 0; i < matrix.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) {
