@@ -84,6 +84,9 @@ FieldLink::FieldLink(std::string name, Component& source, Component& target, Fie
       export_(take_port(source.exports(), options_.source_field, this->name(), source, "gives")),
       import_(take_port(target.imports(), options_.target_field, this->name(), target, "takes")) {
   check_pair(this->name(), export_.field, import_.field);
+  if (options_.schedule == CouplingSchedule::slower_step && !import_.at_source_steps.empty())
+    throw Error(ExitCode::usage, fmt::format("transfer '{}': {}, or let it run `every: source_step`", this->name(),
+                                             import_.at_source_steps));
   const auto width = static_cast<std::size_t>(export_.field.components);
   source_values_.resize(items_at(source.mesh(), export_.field.location) * width);
   target_values_.resize(items_at(target.mesh(), import_.field.location) * width);

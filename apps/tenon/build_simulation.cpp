@@ -81,6 +81,11 @@ std::vector<Planned> plan_components(const LoadedScene& scene, const std::vector
                          }});
     } else {
       ThermalOptions options = read_thermal(block, summary, materials, diagnostics);
+      if (options.stepper == ThermalStepper::steady && !options.fixed_step &&
+          scene.value.entries("components").size() > 1)
+        diagnostics.error(block.where("stepper"),
+                          "stepper: 'steady' knows no time, so beside another component it must be told how often to "
+                          "solve; give time_step: {fixed: ...}");
       planned.push_back({name, mesh, {}, [name = name, options](std::shared_ptr<const Mesh> m) {
                            return std::make_unique<Thermal>(name, std::move(m), options);
                          }});
@@ -282,8 +287,7 @@ BuiltScene build_simulation(const Communicator& comm, Log& log, const LoadedScen
 void print_warnings(Log& log, const BuiltScene& built) {
   for (const std::string& warning : built.warnings) log.warning(warning);
   for (const auto& component : built.simulation->components())
-    if (const auto* const mechanics = dynamic_cast<const Mechanics*>(component.get()))
-      for (const std::string& warning : mechanics->warnings()) log.warning(warning);
+    for (const std::string& warning : component->warnings()) log.warning(warning);
 }
 
 }  // namespace tenon

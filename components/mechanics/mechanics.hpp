@@ -62,7 +62,7 @@ class Mechanics final : public Component {
   std::int64_t memory() const override;
 
   /// What a user should know but need not change; for the log.
-  const std::vector<std::string>& warnings() const { return warnings_; }
+  std::vector<std::string> warnings() const override { return warnings_; }
   /// Nodal masses, kg; complete on owned nodes.
   std::span<const double> nodal_mass() const { return nodes_.mass; }
   /// Internal forces at the present positions (resisting), N; complete on owned nodes. With subcycling impulses

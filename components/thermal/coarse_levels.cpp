@@ -13,7 +13,7 @@ constexpr LocalIndex few_points = 80;  // solved directly
 struct Coarsening {
   RectilinearGrid grid;
   std::vector<LocalIndex> points;
-  SparseMatrix<double> interpolation;
+  SparseMatrix<float> interpolation;
 };
 
 Coarsening coarsen(const RectilinearGrid& fine, const std::vector<LocalIndex>& points) {
@@ -33,86 +33,79 @@ Coarsening coarsen(const RectilinearGrid& fine, const std::vector<LocalIndex>& p
     }
   c.interpolation.columns = static_cast<LocalIndex>(c.points.size());
   for (const LocalIndex p : points) {
-    c.grid.hats(place(p), [&](LocalIndex q, double w) { c.interpolation.add(number[static_cast<std::size_t>(q)], w); });
+    c.grid.hats(place(p), [&](LocalIndex q, double w) {
+      c.interpolation.add(number[static_cast<std::size_t>(q)], static_cast<float>(w));
+    });
     c.interpolation.end_row();
   }
   return c;
 }
 
-/// By power iteration: near the greatest eigenvalue of D^-1 A, unless its eigenvector is a rare one.
-double power_iteration(const SparseMatrix<float>& a, const std::vector<double>& inverse_diagonal) {
-  constexpr int turns = 12;
-  const std::size_t n = inverse_diagonal.size();
-  std::vector<double> x(n), y(n);
-  for (std::size_t i = 0; i < n; ++i) x[i] = (i % 2 ? -1.0 : 1.0) + 1e-2 * static_cast<double>(i * 2654435761u % 97);
-  double greatest = 0;
-  for (int turn = 0; turn < turns; ++turn) {
-    multiply(a, x, y);
-    double above = 0, below = 0, size = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-      above += x[i] * y[i];
-      below += inverse_diagonal[i] > 0 ? x[i] * x[i] / inverse_diagonal[i] : 0;
-      y[i] *= inverse_diagonal[i];
-      size = std::max(size, std::abs(y[i]));
-    }
-    if (!(size > 0) || !(below > 0)) break;
-    greatest = std::max(greatest, above / below);
-    for (std::size_t i = 0; i < n; ++i) x[i] = y[i] / size;
-  }
-  return greatest;
-}
+/// As chebyshev.hpp wants it; serial.
+struct LevelMatrix {
+  struct Sum {
+    double value = 0;
+    void add(double term) { value += term; }
+  };
+  const SparseMatrix<float>& matrix;
+  const std::vector<double>& inverse;
 
-/// Greatest sum of the sizes of a row of D^-1 A: above every eigenvalue (Gershgorin).
-double greatest_row(const SparseMatrix<float>& a, const std::vector<double>& inverse_diagonal) {
-  double greatest = 0;
-  for (LocalIndex r = 0; r < a.rows(); ++r) {
+  std::size_t rows() const { return inverse.size(); }
+  double& entry(std::span<double> v, std::size_t k) const { return v[k]; }
+  double inverse_diagonal(std::size_t k) const { return inverse[k]; }
+  void multiply(std::span<const double> v, std::span<double> out) const { thermal::multiply(matrix, v, out); }
+  double row_size(std::size_t k) const {
     double sum = 0;
-    for (std::size_t p = a.begin(r); p < a.end(r); ++p) sum += std::abs(static_cast<double>(a.value[p]));
-    greatest = std::max(greatest, sum * inverse_diagonal[static_cast<std::size_t>(r)]);
+    const auto r = static_cast<LocalIndex>(k);
+    for (std::size_t p = matrix.begin(r); p < matrix.end(r); ++p) sum += std::abs(static_cast<double>(matrix.value[p]));
+    return sum;
   }
-  return greatest;
-}
+  static std::array<double, 2> sums(const std::array<Sum, 2>& local) { return {local[0].value, local[1].value}; }
+  static double greatest(double local) { return local; }
+};
 
 }  // namespace
 
-// A regular mesh has few modes at the top of its spectrum, all below 2, which power iteration may miss; a bad element
-// has one of its own far above the rest, which it finds. The polynomial bears a quarter more than the bound.
-double Chebyshev::bound(double power, double row) {
-  constexpr double margin = 1.1, regular = 2;
-  return row > 0 ? std::min(row, std::max(margin * power, regular)) : 1.0;
-}
-
-void CoarseLevels::build(const RectilinearGrid& grid, std::vector<LocalIndex> points, SparseMatrix<double> matrix) {
+void CoarseLevels::lay_out(const RectilinearGrid& grid, std::vector<LocalIndex> points) {
   levels_.clear();
-  add_level(matrix);
+  levels_.emplace_back();
   RectilinearGrid finer = grid;
-  const auto times = [](double a, double b) { return a * b; };
-  while (matrix.rows() > few_points && finer.points() > 8) {
+  for (;;) {
+    Level& level = levels_.back();
+    for (std::vector<double>* v :
+         {&level.inverse_diagonal, &level.right_side, &level.x, &level.rest, &level.change, &level.product})
+      v->assign(points.size(), 0.0);
+    if (static_cast<LocalIndex>(points.size()) <= few_points || finer.points() <= 8) return;
     Coarsening c = coarsen(finer, points);
-    const SparseMatrix<double> to_coarse = transposed(c.interpolation);
-    matrix = product<double>(to_coarse, product<double>(matrix, c.interpolation, times), times);
-    levels_.back().to_coarse = single(to_coarse);
-    levels_.back().from_coarse = single(c.interpolation);
-    add_level(matrix);
+    level.to_coarse = transposed(c.interpolation);
+    level.from_coarse = std::move(c.interpolation);
     finer = std::move(c.grid);
     points = std::move(c.points);
+    levels_.emplace_back();
   }
-  factor(matrix);
 }
 
-void CoarseLevels::add_level(const SparseMatrix<double>& matrix) {
-  Level level;
-  const auto n = static_cast<std::size_t>(matrix.rows());
-  level.inverse_diagonal.assign(n, 0.0);
+void CoarseLevels::fill(const SparseMatrix<double>& matrix) {
+  for (std::size_t l = 0; l < levels_.size(); ++l) {
+    Level& level = levels_[l];
+    const SparseMatrix<double>& mine = l == 0 ? matrix : level.exact;
+    fill_level(level, mine);
+    if (l + 1 == levels_.size()) return factor(mine);
+    product(mine, level.from_coarse, level.half, place_);
+    product(level.to_coarse, level.half, levels_[l + 1].exact, place_);
+  }
+}
+
+void CoarseLevels::fill_level(Level& level, const SparseMatrix<double>& matrix) {
+  std::ranges::fill(level.inverse_diagonal, 0.0);
   for (LocalIndex r = 0; r < matrix.rows(); ++r)
     for (std::size_t p = matrix.begin(r); p < matrix.end(r); ++p)
       if (matrix.column[p] == r && matrix.value[p] > 0)
         level.inverse_diagonal[static_cast<std::size_t>(r)] = 1 / matrix.value[p];
-  for (std::vector<double>* v : {&level.right_side, &level.x, &level.rest, &level.change}) v->assign(n, 0.0);
-  level.matrix = single(matrix);
-  level.smoother = Chebyshev(Chebyshev::bound(power_iteration(level.matrix, level.inverse_diagonal),
-                                              greatest_row(level.matrix, level.inverse_diagonal)));
-  levels_.push_back(std::move(level));
+  make_single(matrix, level.matrix);
+  for (std::size_t i = 0; i < level.x.size(); ++i)
+    level.x[i] = (i % 2 ? -1.0 : 1.0) + 1e-2 * static_cast<double>(i * 2654435761u % 97);
+  level.smoother = Chebyshev(spectral_bound(LevelMatrix{level.matrix, level.inverse_diagonal}, level.x, level.product));
 }
 
 // A pivot that is round-off (hats that depend on each other on few nodes) takes no part: the inverse of what is left.
@@ -146,44 +139,29 @@ void CoarseLevels::solve_directly(Level& level) const {
     for (std::size_t j = i + 1; j < n; ++j) x[i] -= factor_[j * n + i] * x[j];
 }
 
-void CoarseLevels::smooth(Level& level, bool from_zero) {
-  const Chebyshev& c = level.smoother;
-  const std::size_t n = level.x.size();
+void CoarseLevels::smooth_level(Level& level, bool from_zero) {
   if (from_zero)
     std::ranges::copy(level.right_side, level.rest.begin());
   else
     residual(level.matrix, level.x, level.right_side, level.rest);
-  const double sigma = c.theta / c.delta;
-  double rho = 1 / sigma;
-  for (std::size_t i = 0; i < n; ++i) {
-    level.change[i] = level.inverse_diagonal[i] * level.rest[i] / c.theta;
-    level.x[i] = from_zero ? level.change[i] : level.x[i] + level.change[i];
-  }
-  for (int step = 1; step < Chebyshev::degree; ++step) {
-    residual(level.matrix, level.change, level.rest, level.rest);
-    const double next = 1 / (2 * sigma - rho);
-    for (std::size_t i = 0; i < n; ++i) {
-      level.change[i] = next * rho * level.change[i] + 2 * next / c.delta * level.inverse_diagonal[i] * level.rest[i];
-      level.x[i] += level.change[i];
-    }
-    rho = next;
-  }
+  smooth(level.smoother, LevelMatrix{level.matrix, level.inverse_diagonal}, from_zero, level.rest, level.change,
+         level.product, level.x);
 }
 
 void CoarseLevels::cycle(std::size_t l) {
   Level& level = levels_[l];
   if (l + 1 == levels_.size()) {
     if (level.matrix.rows() <= few_points) return solve_directly(level);
-    smooth(level, true);
-    return smooth(level, false);
+    smooth_level(level, true);
+    return smooth_level(level, false);
   }
-  smooth(level, true);
+  smooth_level(level, true);
   residual(level.matrix, level.x, level.right_side, level.rest);
   multiply(level.to_coarse, level.rest, levels_[l + 1].right_side);
   cycle(l + 1);
   multiply(level.from_coarse, levels_[l + 1].x, level.rest);
   for (std::size_t i = 0; i < level.x.size(); ++i) level.x[i] += level.rest[i];
-  smooth(level, false);
+  smooth_level(level, false);
 }
 
 void CoarseLevels::solve(std::span<const double> b, std::span<double> result) {
@@ -196,8 +174,8 @@ void CoarseLevels::solve(std::span<const double> b, std::span<double> result) {
 std::int64_t CoarseLevels::memory() const {
   std::int64_t bytes = static_cast<std::int64_t>(factor_.size()) * 8;
   for (const Level& l : levels_)
-    bytes += l.matrix.memory() + l.to_coarse.memory() + l.from_coarse.memory() +
-             static_cast<std::int64_t>(5 * l.x.size()) * 8;
+    bytes += l.exact.memory() + l.half.memory() + l.matrix.memory() + l.to_coarse.memory() + l.from_coarse.memory() +
+             static_cast<std::int64_t>(6 * l.x.size()) * 8;
   return bytes;
 }
 

@@ -6,29 +6,20 @@
 #include <vector>
 
 #include "components/thermal/auxiliary_grid.hpp"
+#include "components/thermal/chebyshev.hpp"
 #include "components/thermal/sparse_matrix.hpp"
 
 namespace tenon::thermal {
-
-/// Chebyshev smoothing [Saa03, algorithm 12.1] on the upper part of the spectrum of D^-1 A: its coefficients.
-struct Chebyshev {
-  static constexpr int degree = 2;
-  /// Part of the spectrum that is smoothed: from `greatest` / `range` to `greatest`.
-  static constexpr double range = 5;
-  explicit Chebyshev(double greatest = 1)
-      : theta(0.5 * greatest * (1 + 1 / range)), delta(0.5 * greatest * (1 - 1 / range)) {}
-  /// What to take for the greatest eigenvalue, from a power iteration and the greatest sum of a row.
-  static double bound(double power, double row);
-  double theta, delta;
-};
 
 /// Local and serial: the same input gives the same bits on every rank. Matrices are kept in single precision (half the
 /// memory traffic, and a preconditioner needs no more); all sums are in double.
 class CoarseLevels {
  public:
-  /// `matrix`: symmetric, positive semi-definite, over `points` (numbers in `grid`, ascending). Coarser matrices are
-  /// Galerkin products with linear interpolation between the lines.
-  void build(const RectilinearGrid& grid, std::vector<LocalIndex> points, SparseMatrix<double> matrix);
+  /// For matrices over `points` (numbers in `grid`, ascending).
+  void lay_out(const RectilinearGrid& grid, std::vector<LocalIndex> points);
+  /// `matrix`: symmetric, positive semi-definite. Coarser matrices are Galerkin products with linear interpolation
+  /// between the lines. Allocates nothing if a matrix of this pattern was there before.
+  void fill(const SparseMatrix<double>& matrix);
   /// One V-cycle from zero: result is about the inverse of the matrix times `b`, a symmetric map. Allocates nothing.
   void solve(std::span<const double> b, std::span<double> result);
   std::size_t levels() const { return levels_.size(); }
@@ -36,17 +27,19 @@ class CoarseLevels {
 
  private:
   struct Level {
+    SparseMatrix<double> exact, half;  // Galerkin product for this level (not the finest), and on the way to the next
     SparseMatrix<float> matrix, to_coarse, from_coarse;
-    std::vector<double> inverse_diagonal, right_side, x, rest, change;
+    std::vector<double> inverse_diagonal, right_side, x, rest, change, product;
     Chebyshev smoother;
   };
-  void add_level(const SparseMatrix<double>& matrix);
+  void fill_level(Level& level, const SparseMatrix<double>& matrix);
   void cycle(std::size_t level);
-  static void smooth(Level& level, bool from_zero);
+  static void smooth_level(Level& level, bool from_zero);
   void factor(const SparseMatrix<double>& coarsest);
   void solve_directly(Level& level) const;
 
   std::vector<Level> levels_;
+  std::vector<LocalIndex> place_;
   std::vector<double> factor_;  // L D L^T of the coarsest matrix, row by row; the inverse of D on the diagonal
 };
 

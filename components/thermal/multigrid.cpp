@@ -18,23 +18,45 @@ std::int64_t rounded(double value, double scale) {
   return static_cast<std::int64_t>(value * scale);
 }
 
-/// One entry of the coarse matrix, as it travels.
-struct Entry {
-  std::int64_t place, value;
-};
+/// As chebyshev.hpp wants it: vectors of all local nodes, rows of the owned ones, sums exact and over all ranks. The
+/// numbers are those of ConductionMatrix in half the memory.
+struct MeshMatrix {
+  using Sum = ExactSum;
+  const Mesh& mesh;
+  const HeatSystem& system;
+  std::span<const float> links;
 
-/// Sorted by place, entries of one place added.
-void merge(std::vector<Entry>& entries) {
-  std::ranges::sort(entries, {}, &Entry::place);
-  std::size_t last = 0;
-  for (std::size_t i = 1; i < entries.size(); ++i) {
-    if (entries[i].place == entries[last].place)
-      entries[last].value += entries[i].value;
-    else
-      entries[++last] = entries[i];
+  std::size_t rows() const { return system.diagonal.size(); }
+  double& entry(std::span<double> v, std::size_t k) const { return v[static_cast<std::size_t>(mesh.owned_nodes[k])]; }
+  double inverse_diagonal(std::size_t k) const { return system.inverse_diagonal[k]; }
+  /// `v` with ghosts.
+  void multiply_here(std::span<const double> v, std::span<double> out) const {
+    const auto offsets = system.matrix.offsets(), columns = system.matrix.columns();
+    for (std::size_t r = 0; r < out.size(); ++r) {
+      double sum = 0;
+      for (auto p = static_cast<std::size_t>(offsets[r]); p < static_cast<std::size_t>(offsets[r + 1]); ++p)
+        sum += static_cast<double>(links[p]) * v[static_cast<std::size_t>(columns[p])];
+      out[r] = system.diagonal[r] * v[static_cast<std::size_t>(mesh.owned_nodes[r])] + system.factor * sum;
+    }
   }
-  if (!entries.empty()) entries.resize(last + 1);
-}
+  void multiply(std::span<double> v, std::span<double> out) const {
+    mesh.node_halo.forward(std::span<const double>(v), v);
+    multiply_here(v, out);
+  }
+  double row_size(std::size_t k) const {
+    const auto offsets = system.matrix.offsets();
+    double sum = system.diagonal[k];
+    for (auto p = static_cast<std::size_t>(offsets[k]); p < static_cast<std::size_t>(offsets[k + 1]); ++p)
+      sum += std::abs(system.factor * system.matrix.values()[p]);
+    return sum;
+  }
+  std::array<double, 2> sums(const std::array<ExactSum, 2>& local) const {
+    std::array<double, 2> all;
+    mesh.comm.sum(local, all);
+    return all;
+  }
+  double greatest(double local) const { return mesh.comm.max(local); }
+};
 
 }  // namespace
 
@@ -46,17 +68,17 @@ Multigrid::Multigrid(const Mesh& mesh) : mesh_(mesh), grid_(auxiliary_grid(mesh)
 
 void Multigrid::build(const HeatSystem& system) {
   links_.assign(system.matrix.values().begin(), system.matrix.values().end());
-  find_points(system);
-  int exponent = 0;
-  SparseMatrix<std::int64_t> upper = galerkin(system, exponent);
-  levels_.build(grid_, points_, gathered(std::move(upper), exponent));
-  smoother_ = Chebyshev(Chebyshev::bound(power_iteration(system), greatest_row(system)));
-  factor_ = system.factor;
+  if (!built_) lay_out(system);
+  const int exponent = galerkin(system);
+  if (!built_) lay_out_sums();
+  add_up(exponent);
+  levels_.fill(whole_);
+  smoother_ = Chebyshev(bound(system));
   built_ = true;
 }
 
 // Points whose hat is positive at a node that is not held, on any rank.
-void Multigrid::find_points(const HeatSystem& system) {
+void Multigrid::lay_out(const HeatSystem& system) {
   std::vector<double> free(change_.size(), 0.0);
   for (std::size_t k = 0; k < rest_.size(); ++k)
     free[static_cast<std::size_t>(mesh_.owned_nodes[k])] = system.inverse_diagonal[k] > 0 ? 1.0 : 0.0;
@@ -80,6 +102,7 @@ void Multigrid::find_points(const HeatSystem& system) {
   coarse_.assign(points_.size(), 0.0);
   coarse_solution_ = coarse_;
   exact_.assign(points_.size(), 0);
+  levels_.lay_out(grid_, points_);
 }
 
 void Multigrid::interpolate(std::span<const double> free, std::span<const LocalIndex> number) {
@@ -102,17 +125,19 @@ void Multigrid::interpolate(std::span<const double> free, std::span<const LocalI
   restriction_ = transposed(owned);
 }
 
-// A P for the free rows; `greatest` sum of the sizes of a row's entries of A.
-SparseMatrix<double> Multigrid::times_interpolation(const HeatSystem& system, double& greatest) const {
+// A P for the free rows; returns the greatest sum of the sizes of a row's entries of A.
+double Multigrid::times_interpolation(const HeatSystem& system) {
   const ConductionMatrix& k = system.matrix;
   const SparseMatrix<float>& p = interpolation_;
-  SparseMatrix<double> ap;
-  ap.columns = p.columns;
-  constexpr std::size_t typical = 48;
-  ap.column.reserve(typical * rest_.size());
-  ap.value.reserve(typical * rest_.size());
-  RowSum<double> row(ap);
-  greatest = 0;
+  SparseMatrix<double>& ap = times_interpolation_;
+  if (!built_) {
+    constexpr std::size_t typical = 48;
+    ap.column.reserve(typical * rest_.size());
+    ap.value.reserve(typical * rest_.size());
+  }
+  ap.clear(p.columns);
+  RowSum<double> row(ap, place_);
+  double greatest = 0;
   for (std::size_t r = 0; r < rest_.size(); ++r) {
     double sum = 0;
     const auto add = [&](LocalIndex node, double entry) {
@@ -128,147 +153,94 @@ SparseMatrix<double> Multigrid::times_interpolation(const HeatSystem& system, do
     greatest = std::max(greatest, sum);
     ap.end_row();
   }
-  return ap;
+  return greatest;
 }
 
-// This rank's share of the upper half of P^T A P, in units of 2^-exponent.
-SparseMatrix<std::int64_t> Multigrid::galerkin(const HeatSystem& system, int& exponent) const {
-  double greatest = 0;
-  const SparseMatrix<double> ap = times_interpolation(system, greatest);
-  exponent = exponent_for(mesh_.comm.max(greatest) * static_cast<double>(most_nodes_));
+// This rank's share of the upper half of P^T A P, in units of 2^-(what is returned).
+int Multigrid::galerkin(const HeatSystem& system) {
+  const double greatest = times_interpolation(system);
+  const int exponent = exponent_for(mesh_.comm.max(greatest) * static_cast<double>(most_nodes_));
   const double scale = std::ldexp(1.0, exponent);
-  SparseMatrix<std::int64_t> upper;
-  upper.columns = restriction_.rows();
-  RowSum<std::int64_t> row(upper);
+  const SparseMatrix<double>& ap = times_interpolation_;
+  upper_.clear(restriction_.rows());
+  RowSum<std::int64_t> row(upper_, place_);
   for (LocalIndex i = 0; i < restriction_.rows(); ++i) {
     for (std::size_t p = restriction_.begin(i); p < restriction_.end(i); ++p) {
       const double w = scale * static_cast<double>(restriction_.value[p]);
       for (std::size_t q = ap.begin(restriction_.column[p]); q < ap.end(restriction_.column[p]); ++q)
         if (ap.column[q] >= i) row.add(ap.column[q], static_cast<std::int64_t>(w * ap.value[q]));
     }
-    upper.end_row();
+    upper_.end_row();
   }
-  return upper;
+  return exponent;
 }
 
-// The sum over the ranks and its mirror image, on every rank; columns ascend.
-SparseMatrix<double> Multigrid::gathered(SparseMatrix<std::int64_t> upper, int exponent) const {
-  const std::int64_t n = upper.columns;
-  if (mesh_.comm.size() > 1) {
-    std::vector<Entry> entries;
-    entries.reserve(upper.column.size());
-    for (LocalIndex r = 0; r < upper.rows(); ++r)
-      for (std::size_t p = upper.begin(r); p < upper.end(r); ++p)
-        entries.push_back({r * n + upper.column[p], upper.value[p]});
-    entries = mesh_.comm.gather(std::span<const Entry>(entries));
-    merge(entries);
-    mesh_.comm.broadcast(entries);
-    upper = {};
-    upper.columns = static_cast<LocalIndex>(n);
-    for (const Entry& e : entries) {
-      while (upper.rows() < e.place / n) upper.end_row();
-      upper.add(static_cast<LocalIndex>(e.place % n), e.value);
-    }
-    while (upper.rows() < n) upper.end_row();
+// The places of the entries, on any rank, of the upper half, row by row; and of the whole, whose columns ascend.
+void Multigrid::lay_out_sums() {
+  const std::int64_t n = upper_.columns;
+  std::vector<std::int64_t> mine;
+  mine.reserve(upper_.column.size());
+  for (LocalIndex r = 0; r < upper_.rows(); ++r)
+    for (std::size_t p = upper_.begin(r); p < upper_.end(r); ++p) mine.push_back(r * n + upper_.column[p]);
+  std::vector<std::int64_t> all = mesh_.comm.gather(std::span<const std::int64_t>(mine));
+  std::ranges::sort(all);
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  mesh_.comm.broadcast(all);
+  sums_.assign(all.size(), 0);
+  for (const std::int64_t place : mine)
+    place_in_sums_.push_back(static_cast<LocalIndex>(std::ranges::lower_bound(all, place) - all.begin()));
+  SparseMatrix<LocalIndex> upper;
+  upper.columns = static_cast<LocalIndex>(n);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    while (upper.rows() < all[i] / n) upper.end_row();
+    upper.add(static_cast<LocalIndex>(all[i] % n), static_cast<LocalIndex>(i));
   }
-  const SparseMatrix<std::int64_t> lower = transposed(upper);
-  upper = transposed(lower);
-  const double unit = std::ldexp(1.0, -exponent);
-  SparseMatrix<double> whole;
-  whole.columns = upper.columns;
-  whole.column.reserve(2 * upper.column.size());
-  whole.value.reserve(2 * upper.column.size());
+  while (upper.rows() < n) upper.end_row();
+  const SparseMatrix<LocalIndex> lower = transposed(upper);
+  const auto add = [this](LocalIndex column, LocalIndex place) {
+    whole_.add(column, 0.0);
+    place_of_whole_.push_back(place);
+  };
+  whole_.clear(upper.columns);
   for (LocalIndex r = 0; r < upper.rows(); ++r) {
     for (std::size_t p = lower.begin(r); p < lower.end(r); ++p)
-      if (lower.column[p] < r) whole.add(lower.column[p], unit * static_cast<double>(lower.value[p]));
-    for (std::size_t p = upper.begin(r); p < upper.end(r); ++p)
-      whole.add(upper.column[p], unit * static_cast<double>(upper.value[p]));
-    whole.end_row();
-  }
-  return whole;
-}
-
-// As ConductionMatrix::multiply, from half the memory.
-void Multigrid::multiply(const HeatSystem& system, std::span<const double> x, std::span<double> out) const {
-  const auto offsets = system.matrix.offsets(), columns = system.matrix.columns();
-  for (std::size_t r = 0; r < out.size(); ++r) {
-    double sum = 0;
-    for (auto p = static_cast<std::size_t>(offsets[r]); p < static_cast<std::size_t>(offsets[r + 1]); ++p)
-      sum += static_cast<double>(links_[p]) * x[static_cast<std::size_t>(columns[p])];
-    out[r] = system.diagonal[r] * x[static_cast<std::size_t>(mesh_.owned_nodes[r])] + system.factor * sum;
+      if (lower.column[p] < r) add(lower.column[p], lower.value[p]);
+    for (std::size_t p = upper.begin(r); p < upper.end(r); ++p) add(upper.column[p], upper.value[p]);
+    whole_.end_row();
   }
 }
 
-// Of D^-1 A; collective.
-double Multigrid::greatest_row(const HeatSystem& system) const {
-  const ConductionMatrix& k = system.matrix;
-  double greatest = 0;
-  for (std::size_t r = 0; r < rest_.size(); ++r) {
-    double sum = system.diagonal[r];
-    for (auto p = static_cast<std::size_t>(k.offsets()[r]); p < static_cast<std::size_t>(k.offsets()[r + 1]); ++p)
-      sum += std::abs(system.factor * k.values()[p]);
-    greatest = std::max(greatest, system.inverse_diagonal[r] * sum);
-  }
-  return mesh_.comm.max(greatest);
+// The sum over the ranks and its mirror image, on every rank.
+void Multigrid::add_up(int exponent) {
+  std::ranges::fill(sums_, 0);
+  for (std::size_t i = 0; i < place_in_sums_.size(); ++i)
+    sums_[static_cast<std::size_t>(place_in_sums_[i])] = upper_.value[i];
+  mesh_.comm.sum(sums_);
+  const double unit = std::ldexp(1.0, -exponent);
+  for (std::size_t i = 0; i < place_of_whole_.size(); ++i)
+    whole_.value[i] = unit * static_cast<double>(sums_[static_cast<std::size_t>(place_of_whole_[i])]);
 }
 
-// Of D^-1 A, with exact sums; collective.
-double Multigrid::power_iteration(const HeatSystem& system) {
-  constexpr int turns = 10;
-  const auto node = [this](std::size_t k) { return static_cast<std::size_t>(mesh_.owned_nodes[k]); };
+// Of the spectrum of D^-1 A; collective.
+double Multigrid::bound(const HeatSystem& system) {
   for (std::size_t k = 0; k < rest_.size(); ++k) {
-    const std::uint64_t id = static_cast<std::uint64_t>(mesh_.node_ids[node(k)]) * 0x9e3779b97f4a7c15u;
-    change_[node(k)] = system.inverse_diagonal[k] > 0 ? 0.5 + static_cast<double>(id >> 40) * 0x1p-24 : 0;
-    if (id >> 63) change_[node(k)] *= -1;
+    const auto n = static_cast<std::size_t>(mesh_.owned_nodes[k]);
+    const std::uint64_t id = static_cast<std::uint64_t>(mesh_.node_ids[n]) * 0x9e3779b97f4a7c15u;
+    change_[n] = system.inverse_diagonal[k] > 0 ? 0.5 + static_cast<double>(id >> 40) * 0x1p-24 : 0;
+    if (id >> 63) change_[n] *= -1;
   }
-  double greatest = 0;
-  for (int turn = 0; turn < turns; ++turn) {
-    mesh_.node_halo.forward(std::span<const double>(change_), std::span<double>(change_));
-    multiply(system, change_, product_);
-    std::array<ExactSum, 2> local;
-    double size = 0;
-    for (std::size_t k = 0; k < rest_.size(); ++k) {
-      double& x = change_[node(k)];
-      local[0].add(x * product_[k]);
-      local[1].add(x * system.diagonal[k] * x);
-      x = system.inverse_diagonal[k] * product_[k];
-      size = std::max(size, std::abs(x));
-    }
-    std::array<double, 2> sums;
-    mesh_.comm.sum(local, sums);
-    size = mesh_.comm.max(size);
-    if (!(sums[1] > 0) || !(size > 0)) break;
-    greatest = std::max(greatest, sums[0] / sums[1]);
-    for (std::size_t k = 0; k < rest_.size(); ++k) change_[node(k)] /= size;
-  }
-  return greatest;
+  return spectral_bound(MeshMatrix{mesh_, system, links_}, change_, product_);
 }
 
-void Multigrid::smooth(const HeatSystem& system, std::span<const double> r, std::span<double> z, bool from_zero) {
-  const auto node = [this](std::size_t k) { return static_cast<std::size_t>(mesh_.owned_nodes[k]); };
+void Multigrid::smooth_mesh(const HeatSystem& system, std::span<const double> r, std::span<double> z, bool from_zero) {
+  const MeshMatrix a{mesh_, system, links_};
   if (from_zero) {
     std::ranges::copy(r, rest_.begin());
   } else {  // z's ghosts are those of their owners
-    multiply(system, z, product_);
+    a.multiply_here(z, product_);
     for (std::size_t k = 0; k < rest_.size(); ++k) rest_[k] = r[k] - product_[k];
   }
-  const double sigma = smoother_.theta / smoother_.delta, inverse_theta = 1 / smoother_.theta;
-  double rho = 1 / sigma;
-  for (std::size_t k = 0; k < rest_.size(); ++k) {
-    change_[node(k)] = inverse_theta * system.inverse_diagonal[k] * rest_[k];
-    z[node(k)] = from_zero ? change_[node(k)] : z[node(k)] + change_[node(k)];
-  }
-  for (int step = 1; step < Chebyshev::degree; ++step) {
-    mesh_.node_halo.forward(std::span<const double>(change_), std::span<double>(change_));
-    multiply(system, change_, product_);
-    const double next = 1 / (2 * sigma - rho), keep = next * rho, take = 2 * next / smoother_.delta;
-    for (std::size_t k = 0; k < rest_.size(); ++k) {
-      rest_[k] -= product_[k];
-      change_[node(k)] = keep * change_[node(k)] + take * system.inverse_diagonal[k] * rest_[k];
-      z[node(k)] += change_[node(k)];
-    }
-    rho = next;
-  }
+  smooth(smoother_, a, from_zero, rest_, change_, product_, z);
 }
 
 // z += P (coarse solution for the residual in rest_), ghosts included.
@@ -299,19 +271,22 @@ void Multigrid::correct(std::span<double> z) {
 }
 
 void Multigrid::apply(const HeatSystem& system, std::span<const double> r, std::span<double> z) {
-  smooth(system, r, z, true);
+  smooth_mesh(system, r, z, true);
   mesh_.node_halo.forward(std::span<const double>(z), z);
-  multiply(system, z, product_);
+  MeshMatrix{mesh_, system, links_}.multiply_here(z, product_);
   // What is left of a held row is none of ours: its column of the restriction is empty, but its size would count.
   for (std::size_t k = 0; k < rest_.size(); ++k) rest_[k] = system.inverse_diagonal[k] > 0 ? r[k] - product_[k] : 0.0;
   correct(z);
-  smooth(system, r, z, false);
+  smooth_mesh(system, r, z, false);
 }
 
 std::int64_t Multigrid::memory() const {
-  return interpolation_.memory() + restriction_.memory() + levels_.memory() +
+  return interpolation_.memory() + restriction_.memory() + times_interpolation_.memory() + upper_.memory() +
+         whole_.memory() + levels_.memory() +
+         4 * static_cast<std::int64_t>(place_in_sums_.size() + place_of_whole_.size()) +
          static_cast<std::int64_t>(
-             (links_.size() / 2 + rest_.size() + product_.size() + change_.size() + 3 * coarse_.size()) * 8);
+             (links_.size() / 2 + sums_.size() + rest_.size() + product_.size() + change_.size() + 3 * coarse_.size()) *
+             8);
 }
 
 }  // namespace tenon::thermal

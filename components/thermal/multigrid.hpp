@@ -19,37 +19,44 @@ class Multigrid {
  public:
   /// Collective. Lays the grid over the reference configuration.
   explicit Multigrid(const Mesh& mesh);
-  /// Collective. Prepares for this system; must be repeated when the matrix has changed or nodes are held that were
-  /// not. A system with another factor, up to twice or half, may then be preconditioned too.
+  /// Collective. Prepares for this system; must be repeated when the matrix has changed. Always of the same mesh and
+  /// the same held nodes, so that all but the first time only numbers are filled in and nothing is allocated. A system
+  /// with another factor, up to twice or half, may then be preconditioned too.
   void build(const HeatSystem& system);
   bool built() const { return built_; }
-  /// Factor of the system it was built for.
-  double factor() const { return factor_; }
   /// Collective. z (all local nodes; ghosts are not refreshed) = M^-1 r. Allocates nothing.
   void apply(const HeatSystem& system, std::span<const double> r, std::span<double> z);
   std::int64_t memory() const;
 
  private:
-  void find_points(const HeatSystem& system);
+  void lay_out(const HeatSystem& system);
   void interpolate(std::span<const double> free, std::span<const LocalIndex> number);
-  SparseMatrix<double> times_interpolation(const HeatSystem& system, double& greatest) const;
-  SparseMatrix<std::int64_t> galerkin(const HeatSystem& system, int& exponent) const;
-  SparseMatrix<double> gathered(SparseMatrix<std::int64_t> upper, int exponent) const;
-  void multiply(const HeatSystem& system, std::span<const double> x, std::span<double> out) const;
-  double greatest_row(const HeatSystem& system) const;
-  double power_iteration(const HeatSystem& system);
-  void smooth(const HeatSystem& system, std::span<const double> r, std::span<double> z, bool from_zero);
+  void lay_out_sums();
+  double times_interpolation(const HeatSystem& system);
+  int galerkin(const HeatSystem& system);
+  void add_up(int exponent);
+  double bound(const HeatSystem& system);
+  void smooth_mesh(const HeatSystem& system, std::span<const double> r, std::span<double> z, bool from_zero);
   void correct(std::span<double> z);
 
   const Mesh& mesh_;
   RectilinearGrid grid_;
   bool built_ = false;
-  double factor_ = 0;
   std::int64_t most_nodes_ = 1;        // that one hat holds, over all ranks
   SparseMatrix<float> interpolation_;  // from the points in use to all local nodes
   SparseMatrix<float> restriction_;    // from the owned nodes (rows) to the points in use
   std::vector<float> links_;           // off-diagonal entries of K
   std::vector<LocalIndex> points_;
+
+  // The Galerkin product: this rank's share of its upper half (in units of 2^-exponent), all ranks' and the whole.
+  SparseMatrix<double> times_interpolation_;
+  SparseMatrix<std::int64_t> upper_;
+  std::vector<LocalIndex> place_;           // memory of products
+  std::vector<LocalIndex> place_in_sums_;   // of the entries of upper_
+  std::vector<LocalIndex> place_of_whole_;  // in sums_
+  std::vector<std::int64_t> sums_;
+  SparseMatrix<double> whole_;
+
   CoarseLevels levels_;
   Chebyshev smoother_;
   std::vector<double> rest_, product_;  // rows

@@ -39,7 +39,10 @@ Schema time_step_schema() {
              "First step that tr_bdf2 tries; without it one that changes no temperature by more than "
              "the tolerance.",
              "", Range::positive());
-  s.quantity("maximum", "s", "Longest step of tr_bdf2.", "", Range::positive());
+  s.quantity("maximum", "s",
+             "Longest step of tr_bdf2; give it where a load may come and go within one step, and where heat comes only "
+             "once in a step.",
+             "", Range::positive());
   s.quantity("scale", "1", "Share of the stable limit that the explicit stepper takes.", "0.9", {0, 1, true, false});
   return s;
 }
@@ -195,6 +198,14 @@ void read_initial(const Value& value, const MeshSummary& mesh, ThermalOptions& o
   }
 }
 
+/// At the start; what a function gives later is judged when the time has come (Thermal::absolute_ambient).
+void check_absolute(const Value& item, const TimeFunction& temperature, Diagnostics& diagnostics) {
+  if (temperature(0) < 0)
+    diagnostics.error(item.where("ambient"), fmt::format("ambient: {:.6g} K; expected an absolute temperature, 0 K or "
+                                                         "more, as `20 degC` or `293.15 K`",
+                                                         temperature(0)));
+}
+
 void read_conditions(const Value& value, const MeshSummary& mesh, ThermalOptions& options, Diagnostics& diagnostics) {
   const auto items = [&](const char* key) { return value.has(key) ? value.items(key) : std::vector<Value>{}; };
   for (const Value& item : items("prescribed_temperatures")) {
@@ -212,11 +223,31 @@ void read_conditions(const Value& value, const MeshSummary& mesh, ThermalOptions
   for (const Value& item : items("radiation")) {
     check_name(item, "side_set", mesh.side_sets, "side set", mesh, diagnostics);
     options.radiation.push_back({item.text("side_set"), item.real("emissivity"), item.function("ambient")});
+    check_absolute(item, options.radiation.back().ambient, diagnostics);
   }
   for (const Value& item : items("sources")) {
     check_name(item, "block", mesh.blocks, "block", mesh, diagnostics);
     options.sources.push_back({item.text("block"), item.function("power")});
   }
+}
+
+/// Complains about keys that the stepper does not look at.
+void check_keys(const Value& value, const ThermalOptions& options, Diagnostics& diagnostics) {
+  const auto refuse = [&](const char* section, const char* key, const std::string& why) {
+    if (value.has(section) && value.child(section).given(key))
+      diagnostics.error(value.child(section).where(key), fmt::format("{}.{}: {}", section, key, why));
+  };
+  const std::string stepper = "the stepper is '" + value.text("stepper") + "'; ";
+  const bool explicit_stepper = options.stepper == ThermalStepper::explicit_euler;
+  for (const char* key : {"tolerance", "initial", "maximum"}) {
+    if (options.stepper != ThermalStepper::tr_bdf2)
+      refuse("time_step", key, stepper + "only tr_bdf2 chooses a step by this");
+    else if (options.fixed_step)
+      refuse("time_step", key, "the step is fixed; leave one of the two out");
+  }
+  if (!explicit_stepper) refuse("time_step", "scale", stepper + "only the explicit one has a stable limit to scale");
+  for (const char* key : {"tolerance", "max_iterations", "nonlinear_tolerance", "preconditioner"})
+    if (explicit_stepper) refuse("solver", key, stepper + "nothing is solved for; leave it out");
 }
 
 void read_stepping(const Value& value, ThermalOptions& options, Diagnostics& diagnostics) {
@@ -238,6 +269,7 @@ void read_stepping(const Value& value, ThermalOptions& options, Diagnostics& dia
     for (const auto& [name, preconditioner] : preconditioners)
       if (solver.text("preconditioner") == name) options.preconditioner = preconditioner;
   }
+  check_keys(value, options, diagnostics);
   const bool needs_step =
       options.stepper == ThermalStepper::backward_euler || options.stepper == ThermalStepper::crank_nicolson;
   if (needs_step && !options.fixed_step)
@@ -275,7 +307,7 @@ Schema thermal_schema() {
       "`explicit` is limited by the smallest element; `backward_euler` and `crank_nicolson` (first and second order) "
       "take "
       "any fixed step; `tr_bdf2` (second order, no ringing) chooses its own; `steady` finds the steady state in every "
-      "step.",
+      "step, which beside another component must be fixed.",
       "explicit");
   s.object("time_step", time_step_schema(), "Time step of the component.");
   s.object("solver", solver_schema(), "Conjugate gradients of the implicit steppers.");

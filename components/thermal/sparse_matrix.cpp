@@ -13,13 +13,11 @@ double row_times(const SparseMatrix<float>& m, LocalIndex row, std::span<const d
 
 }  // namespace
 
-SparseMatrix<float> single(const SparseMatrix<double>& m) {
-  SparseMatrix<float> s;
-  s.columns = m.columns;
-  s.offsets = m.offsets;
-  s.column = m.column;
-  s.value.assign(m.value.begin(), m.value.end());
-  return s;
+void make_single(const SparseMatrix<double>& m, SparseMatrix<float>& single) {
+  single.columns = m.columns;
+  single.offsets = m.offsets;
+  single.column = m.column;
+  single.value.assign(m.value.begin(), m.value.end());
 }
 
 void residual(const SparseMatrix<float>& m, std::span<const double> x, std::span<const double> b,

@@ -24,6 +24,13 @@ struct SparseMatrix {
     column.push_back(col);
     value.push_back(v);
   }
+  /// No rows; keeps its memory.
+  void clear(LocalIndex number_of_columns) {
+    columns = number_of_columns;
+    offsets.assign(1, 0);
+    column.clear();
+    value.clear();
+  }
   void end_row() { offsets.push_back(static_cast<LocalIndex>(column.size())); }
   std::int64_t memory() const {
     return static_cast<std::int64_t>(offsets.capacity() + column.capacity()) * 4 +
@@ -51,11 +58,13 @@ SparseMatrix<T> transposed(const SparseMatrix<T>& m) {
   return t;
 }
 
-/// Adds terms (column, value) up to one row of a product at a time.
+/// Adds terms (column, value) up to one row of a product at a time. `place` is its memory.
 template <typename T>
 class RowSum {
  public:
-  explicit RowSum(SparseMatrix<T>& out) : out_(out), place_(static_cast<std::size_t>(out.columns), no_index) {}
+  RowSum(SparseMatrix<T>& out, std::vector<LocalIndex>& place) : out_(out), place_(place) {
+    place_.assign(static_cast<std::size_t>(out.columns), no_index);
+  }
   void add(LocalIndex col, T v) {
     LocalIndex& place = place_[static_cast<std::size_t>(col)];
     if (place < out_.offsets.back()) {  // not in this row yet
@@ -68,26 +77,25 @@ class RowSum {
 
  private:
   SparseMatrix<T>& out_;
-  std::vector<LocalIndex> place_;
+  std::vector<LocalIndex>& place_;
 };
 
-/// a b, where each term passes through `term(a_ik, b_kj)`, in ascending order of a's entries.
-template <typename T, typename Term>
-SparseMatrix<T> product(const SparseMatrix<double>& a, const SparseMatrix<double>& b, const Term& term) {
-  SparseMatrix<T> c;
-  c.columns = b.columns;
-  RowSum<T> row(c);
+/// c = a b, terms in ascending order of a's entries. Allocates only what c and `place` do not have.
+template <typename A, typename B>
+void product(const SparseMatrix<A>& a, const SparseMatrix<B>& b, SparseMatrix<double>& c,
+             std::vector<LocalIndex>& place) {
+  c.clear(b.columns);
+  RowSum<double> row(c, place);
   for (LocalIndex r = 0; r < a.rows(); ++r) {
     for (std::size_t p = a.begin(r); p < a.end(r); ++p)
       for (std::size_t q = b.begin(a.column[p]); q < b.end(a.column[p]); ++q)
-        row.add(b.column[q], term(a.value[p], b.value[q]));
+        row.add(b.column[q], static_cast<double>(a.value[p]) * static_cast<double>(b.value[q]));
     c.end_row();
   }
-  return c;
 }
 
 /// The same with values of half the size; sums stay in double precision.
-SparseMatrix<float> single(const SparseMatrix<double>& m);
+void make_single(const SparseMatrix<double>& m, SparseMatrix<float>& single);
 
 /// out = b - m x.
 void residual(const SparseMatrix<float>& m, std::span<const double> x, std::span<const double> b,

@@ -91,6 +91,11 @@ double Thermal::time_step() {
   return options_.fixed_step ? std::min(*options_.fixed_step, limit) : limit;
 }
 
+bool Thermal::ends_step(double now) {
+  hastened_ = chooses_step() && withheld_change(now) >= options_.control.tolerance;
+  return hastened_;
+}
+
 StepLimiter Thermal::limiter() {
   const double dt = time_step();
   if (options_.fixed_step && dt == *options_.fixed_step) return {dt, "time_step.fixed"};

@@ -35,6 +35,7 @@ class Thermal : public Component {
   void initialize() override;
   double time_step() override;
   StepLimiter limiter() override;
+  bool ends_step(double now) override;
   void advance(double dt) override;
   std::vector<ExportPort> exports() override;
   std::vector<ImportPort> imports() override;
@@ -86,16 +87,8 @@ class Thermal : public Component {
     LocalIndex row;
     std::size_t function;
   };
-  /// A function of time as the theta method weighs it over the step.
-  struct StepTime {
-    double start, end, theta;
-    double operator()(const TimeFunction& f) const {
-      if (theta == 0) return f(start);
-      return theta == 1 ? f(end) : (1 - theta) * f(start) + theta * f(end);
-    }
-  };
-
   bool is_explicit() const { return options_.stepper == ThermalStepper::explicit_euler; }
+  bool chooses_step() const { return options_.stepper == ThermalStepper::tr_bdf2 && !options_.fixed_step; }
   bool is_steady() const { return options_.stepper == ThermalStepper::steady; }
   /// Coefficients depend on the temperature.
   bool is_nonlinear() const { return warm_conductivity_ || !content_.is_linear() || !options_.radiation.empty(); }
@@ -124,10 +117,7 @@ class Thermal : public Component {
 
   // The step.
   void advance_at_once(double dt);
-  void gather_loads(const StepTime& when, double dt);
-  void add_load(Supply kind, LocalIndex row, double energy);
-  void add_volume_sources(const StepTime& when, double dt);
-  void add_convection(const StepTime& when, double dt);
+  void gather_loads(double dt);
   void add_conduction(double dt);
   void hold_prescribed(double end);
   void solve_explicit();
@@ -148,10 +138,14 @@ class Thermal : public Component {
   double error_of_step(double dt);
   void choose_step(double dt, double error, bool taken);
   void first_step();
+  double capacity_of_change(std::size_t k, double heat) const;
+  double withheld_change(double now);
   void tr_bdf2_steps(double dt);
   void steady_step(double dt);
+  /// Calls use(kind, row, W) for every load at a time and the present temperature.
   template <typename Use>
   void each_load(double time, const Use& use) const;
+  double absolute_ambient(const RadiationLoad& load, double time) const;
   void evaluate(double time);
   void book(double weight, double time);
   double node_energy(std::size_t k) const;
@@ -217,6 +211,7 @@ class Thermal : public Component {
   double multigrid_factor_ = 0;     // that it was built for
   bool warm_conductivity_ = false;  // some conductivity depends on the temperature
   double next_step_ = 0;            // that TR-BDF2 would take, s; 0: not chosen yet
+  bool hastened_ = false;           // what came from outside ends the present step
 
   double last_dt_ = 0;
   double stiffest_ = 0;       // greatest eigenvalue bound over all ranks, 1/s

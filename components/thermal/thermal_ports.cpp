@@ -15,10 +15,16 @@ std::vector<ExportPort> Thermal::exports() {
 }
 
 std::vector<ImportPort> Thermal::imports() {
+  std::string hurry;
+  if (chooses_step() && !options_.control.maximum)
+    hurry = "the stepper tr_bdf2 of '" + name() +
+            "' chooses its step from the heat that comes, so it must see it at once: give it time_step.maximum or "
+            "time_step.fixed";
   return {{{"displacement", Location::node, FieldKind::point_value, 3, "m"},
            [this](std::span<const double> values) { receive_displacement(values); }},
           {{"heat", Location::node, FieldKind::total, 1, "J"},
-           [this](std::span<const double> values) { receive_heat(values); }}};
+           [this](std::span<const double> values) { receive_heat(values); },
+           hurry}};
 }
 
 // -k grad T at the centre of each element.

@@ -9,49 +9,18 @@
 #include <cmath>
 #include <limits>
 
-#include "components/thermal/thermal.hpp"
+#include "components/thermal/thermal_loads.hpp"
 
 namespace tenon {
-namespace {
-
-constexpr double stefan_boltzmann = 5.670374419e-8;  // W/(m^2 K^4), exact to the digits given [SI19]
-
-double fourth(double t) {
-  return (t * t) * (t * t);
-}
-
-}  // namespace
-
-/// Calls use(kind, row, W) for every load at a time and the present temperature.
-template <typename Use>
-void Thermal::each_load(double time, const Use& use) const {
-  const auto node = [this](LocalIndex row) {
-    return static_cast<std::size_t>(mesh_->owned_nodes[static_cast<std::size_t>(row)]);
-  };
-  const auto on_surface = [&](Supply kind, const thermal::Surface& surface, const auto& power) {
-    for (std::size_t i = 0; i < surface.rows().size(); ++i) {
-      const LocalIndex row = surface.rows()[i];
-      use(kind, row, surface.areas()[i] * power(temperature_[node(row)]));
-    }
-  };
-  for (const FluxLoad& load : flux_loads_)
-    on_surface(flux, load.surface, [value = load.flux(time)](double) { return value; });
-  for (const ConvectionLoad& load : convection_loads_)
-    on_surface(convection, load.surface,
-               [&load, ambient = load.ambient(time)](double t) { return load.coefficient * (ambient - t); });
-  for (const RadiationLoad& load : radiation_loads_)
-    on_surface(radiation, load.surface, [&load, ambient = fourth(load.ambient(time))](double t) {
-      return load.emissivity * stefan_boltzmann * (ambient - fourth(t));
-    });
-  for (const SourceLoad& load : source_loads_) {
-    const double power = load.power(time);
-    for (std::size_t i = 0; i < load.rows.size(); ++i) use(source, load.rows[i], power * load.volumes[i]);
-  }
-  if (!options_.source_function) return;
-  for (std::size_t k = 0; k < volume_.size(); ++k) {
-    const auto row = static_cast<LocalIndex>(k);
-    use(source, row, volume_[k] * options_.source_function(mesh_->coordinates[node(row)], time));
-  }
+/// K. The same on every rank, and so is the refusal.
+double Thermal::absolute_ambient(const RadiationLoad& load, double time) const {
+  const double ambient = load.ambient(time);
+  if (ambient >= 0) return ambient;
+  throw Error(
+      ExitCode::usage,
+      fmt::format("component '{}' at time {:.6g} s: the surroundings that it radiates to have {:.6g} K; expected "
+                  "an absolute temperature, 0 K or more, at all times (as `20 degC` or `293.15 K`)",
+                  name(), time, ambient));
 }
 
 /// rate_ at a time and the present temperature (ghosts included).
@@ -111,7 +80,7 @@ void Thermal::stage_matrix(double factor) {
     for (std::size_t i = 0; i < load.surface.rows().size(); ++i) {
       const auto k = static_cast<std::size_t>(load.surface.rows()[i]);
       const double t = std::max(0.0, initial_[k] + rise_[k]);
-      diagonal_[k] += factor * load.surface.areas()[i] * 4 * load.emissivity * stefan_boltzmann * t * t * t;
+      diagonal_[k] += factor * load.surface.areas()[i] * 4 * load.emissivity * thermal::stefan_boltzmann * t * t * t;
     }
   for (std::size_t k = 0; k < diagonal_.size(); ++k)
     if (inverse_diagonal_[k] > 0) inverse_diagonal_[k] = 1 / diagonal_[k];

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <optional>
 
-#include "components/thermal/thermal.hpp"
+#include "components/thermal/thermal_loads.hpp"
 
 namespace tenon {
 
@@ -26,7 +26,7 @@ void Thermal::advance(double dt) {
 
 // The theta method with constant coefficients.
 void Thermal::advance_at_once(double dt) {
-  gather_loads({time(), time() + dt, theta()}, dt);
+  gather_loads(dt);
   hold_prescribed(time() + dt);
   if (is_explicit())
     solve_explicit();
@@ -38,51 +38,21 @@ void Thermal::advance_at_once(double dt) {
   show_temperatures();
 }
 
-// Energy (J) that the step brings to each node, as far as it is known before the new temperature.
-void Thermal::gather_loads(const StepTime& when, double dt) {
+// Energy (J) that the step brings to each node, as far as it is known before the new temperature. Convection at the
+// temperature of the start; book_reactions adds what the increment changes.
+void Thermal::gather_loads(double dt) {
   const ScopedTimer timer(*load_time_);
   right_side_.swap(waiting_heat_);  // what was received, booked on receipt
   std::ranges::fill(waiting_heat_, 0.0);
-  for (const FluxLoad& load : flux_loads_) {
-    const double energy = dt * when(load.flux);
-    const auto rows = load.surface.rows();
-    for (std::size_t i = 0; i < rows.size(); ++i) add_load(flux, rows[i], energy * load.surface.areas()[i]);
-  }
-  add_volume_sources(when, dt);
-  add_convection(when, dt);
+  const auto add = [this](double weight) {
+    return [this, weight](Supply kind, LocalIndex row, double power) {
+      right_side_[static_cast<std::size_t>(row)] += weight * power;
+      supplied_[kind][static_cast<std::size_t>(row)] += weight * power;
+    };
+  };
+  if (theta() < 1) each_load(time(), add((1 - theta()) * dt));
+  if (theta() > 0) each_load(time() + dt, add(theta() * dt));
   add_conduction(dt);
-}
-
-void Thermal::add_load(Supply kind, LocalIndex row, double energy) {
-  right_side_[static_cast<std::size_t>(row)] += energy;
-  supplied_[kind][static_cast<std::size_t>(row)] += energy;
-}
-
-void Thermal::add_volume_sources(const StepTime& when, double dt) {
-  for (const SourceLoad& load : source_loads_) {
-    const double energy = dt * when(load.power);
-    for (std::size_t i = 0; i < load.rows.size(); ++i) add_load(source, load.rows[i], energy * load.volumes[i]);
-  }
-  if (!options_.source_function) return;
-  for (std::size_t k = 0; k < volume_.size(); ++k) {
-    const Vec3& x = mesh_->coordinates[static_cast<std::size_t>(mesh_->owned_nodes[k])];
-    const double power =
-        (1 - when.theta) * options_.source_function(x, when.start) + when.theta * options_.source_function(x, when.end);
-    add_load(source, static_cast<LocalIndex>(k), dt * power * volume_[k]);
-  }
-}
-
-// At the temperature of the start; book_reactions adds what the increment changes.
-void Thermal::add_convection(const StepTime& when, double dt) {
-  for (const ConvectionLoad& load : convection_loads_) {
-    const double ambient = when(load.ambient);
-    const auto rows = load.surface.rows();
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      const LocalIndex n = mesh_->owned_nodes[static_cast<std::size_t>(rows[i])];
-      const double film = load.coefficient * load.surface.areas()[i];
-      add_load(convection, rows[i], dt * film * (ambient - temperature_[static_cast<std::size_t>(n)]));
-    }
-  }
 }
 
 void Thermal::add_conduction(double dt) {

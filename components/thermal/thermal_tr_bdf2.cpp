@@ -9,7 +9,7 @@
 #include <limits>
 #include <numbers>
 
-#include "components/thermal/thermal.hpp"
+#include "components/thermal/thermal_loads.hpp"
 
 namespace tenon {
 namespace {
@@ -78,14 +78,15 @@ double Thermal::error_of_step(double dt) {
   return mesh_->comm.max(std::isfinite(greatest) ? greatest : std::numeric_limits<double>::infinity());
 }
 
-/// The error of a step grows as its cube. A step that was cut short by others says nothing against a longer one.
+/// The error of a step grows as its cube. A step that was cut short by others says nothing against a longer one, unless
+/// it was by what came from outside, of which the longer one knew nothing.
 void Thermal::choose_step(double dt, double error, bool taken) {
   const double limit = options_.control.maximum.value_or(std::numeric_limits<double>::infinity());
   double change = error > 0 ? caution * std::cbrt(options_.control.tolerance / error) : greatest_change;
   change = std::clamp(change, least_change, taken ? greatest_change : caution);
   if (taken && change >= 1 && change < worth_a_change) change = 1;
   const double wanted = std::min(dt * change, limit);
-  next_step_ = taken && dt < next_step_ ? std::max(next_step_, wanted) : wanted;
+  next_step_ = taken && dt < next_step_ && !hastened_ ? std::max(next_step_, wanted) : wanted;
 }
 
 /// What the scene says, or a step in which no temperature changes by more than the tolerance. Collective.
@@ -101,12 +102,37 @@ void Thermal::first_step() {
   double fastest = 0;
   for (std::size_t k = 0; k < rate_.size(); ++k) {
     if (!(inverse_diagonal_[k] > 0)) continue;
-    const double capacity =
-        content_.is_linear() ? capacity_[k] : content_.slope(k, initial_[k] + rise_[k], rate_[k] >= 0);
-    fastest = std::max(fastest, std::abs(rate_[k]) / capacity);
+    fastest = std::max(fastest, std::abs(rate_[k]) / capacity_of_change(k, rate_[k]));
   }
   fastest = mesh_->comm.max(fastest);
   next_step_ = fastest > 0 ? std::min(control.tolerance / fastest, limit) : limit;
+}
+
+/// J/K, for heat of this sign.
+double Thermal::capacity_of_change(std::size_t k, double heat) const {
+  return content_.is_linear() ? capacity_[k] : content_.slope(k, initial_[k] + rise_[k], heat >= 0);
+}
+
+/// Greatest change of a temperature, K, that has come from outside since the step began and that the choice of the step
+/// could not know: heat received, loads and held temperatures that are others than at the start. Collective.
+double Thermal::withheld_change(double now) {
+  const ScopedTimer timer(*load_time_);
+  const double lag = now - time();
+  std::ranges::copy(waiting_heat_, residual_.begin());
+  const auto add = [this](double weight) {
+    return [this, weight](Supply, LocalIndex row, double power) {
+      residual_[static_cast<std::size_t>(row)] += weight * power;
+    };
+  };
+  each_load(now, add(lag));
+  each_load(time(), add(-lag));
+  double greatest = 0;
+  for (std::size_t k = 0; k < residual_.size(); ++k)
+    if (inverse_diagonal_[k] > 0)
+      greatest = std::max(greatest, std::abs(residual_[k]) / capacity_of_change(k, residual_[k]));
+  for (const PrescribedTemperature& held : options_.prescribed)
+    greatest = std::max(greatest, std::abs(held.temperature(now) - held.temperature(time())));
+  return mesh_->comm.max(greatest);
 }
 
 /// As many steps as dt takes: one, if it is not longer than what time_step() gave and the error allows.
@@ -121,6 +147,7 @@ void Thermal::tr_bdf2_steps(double dt) {
     const double left = dt - done, step = next_step_ < left * (1 - 1e-9) ? next_step_ : left;
     if (!(step > round_off)) refuse_newton(time() + done);
     if (tr_bdf2_step(time() + done, step)) done += step;
+    hastened_ = false;
   }
 }
 

@@ -29,6 +29,8 @@ struct ExportPort {
 struct ImportPort {
   FieldDescription field;
   std::function<void(std::span<const double>)> write;
+  /// Why it must be filled after every step of its source, and what else would do; empty: it need not be.
+  std::string at_source_steps = "";
 };
 
 /// One row of the energy ledger, J. Stored rows plus the initial total equal the supplied rows to round-off; memo rows
@@ -80,6 +82,9 @@ class Component {
   /// The greatest step that the component may take now, s; the same on every rank. Infinity if it has no limit.
   virtual double time_step() = 0;
   virtual StepLimiter limiter() = 0;
+  /// Whether the step is to end at `now`, though time_step() allows more: for components that choose their step from
+  /// what comes from outside. Asked of those that lag behind; `advance` to `now` follows a yes.
+  virtual bool ends_step(double) { return false; }
   /// Local. True once nothing more will happen: the run ends early. The same on every rank.
   virtual bool finished() const { return false; }
   /// Local. What a user should know about how the run ended, if anything; the same on every rank.
@@ -98,6 +103,8 @@ class Component {
   /// Local.
   virtual std::vector<HistoryValue> history_values() { return {}; }
   virtual std::vector<SkipCount> skips() const { return {}; }
+  /// Local. What a user should know before the first step; the same on every rank.
+  virtual std::vector<std::string> warnings() const { return {}; }
 
   /// State beyond what `initialize` makes from the scene; names are prefixed by the component.
   virtual void save(CheckpointWriter& file) = 0;

@@ -184,7 +184,8 @@ double Simulation::leader_step() {
 
 bool Simulation::due(Component& follower) {
   const double lag = time_ - follower.time();
-  return lag > 0 && (done() || lag + dt_ > follower.time_step() * (1 - 1e-12));
+  if (!(lag > 0)) return false;
+  return done() || lag + dt_ > follower.time_step() * (1 - 1e-12) || follower.ends_step(time_);
 }
 
 void Simulation::follow() {

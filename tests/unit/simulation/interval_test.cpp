@@ -28,7 +28,9 @@ TEST(Interval, ARestartedClockIsDueAtTheSameSteps) {
   second.reset(0.013 * 500, 500);
   for (int i = 1; i <= 1000; ++i) {
     const bool due = whole.due(0.013 * i, i);
-    if (i > 500) EXPECT_EQ(due, second.due(0.013 * i, i)) << i;
+    if (i > 500) {
+      EXPECT_EQ(due, second.due(0.013 * i, i)) << i;
+    }
   }
 }
 

@@ -54,6 +54,17 @@ TEST(Simulation, FollowerNeverExceedsItsLimitAndAllEndTogether) {
   }
 }
 
+TEST(Simulation, AFollowerMayEndItsStepBeforeItsLimit) {
+  Pair pair(0.01, 0.3);
+  pair.slow.hurry = 0.505;
+  pair.simulation.initialize();
+  pair.simulation.run();
+  ASSERT_GT(pair.slow.steps.size(), 40u);
+  EXPECT_NEAR(pair.slow.steps[0], 0.3, 0.0101);  // it may end one step of the leader before its limit
+  EXPECT_NEAR(pair.slow.steps[0] + pair.slow.steps[1], 0.51, 1e-12);
+  for (std::size_t i = 2; i < pair.slow.steps.size(); ++i) EXPECT_NEAR(pair.slow.steps[i], 0.01, 1e-12);
+}
+
 TEST(Simulation, TheSmallerStepLeadsWhicheverWasAddedFirst) {
   Pair pair(0.2, 0.05);  // "slow" has the smaller step here
   pair.simulation.initialize();

@@ -111,6 +111,30 @@ TEST(ThermalScene, RefusesUnknownNamesWithTheNearest) {
   expect_refused("material: copper\nsources: [{block: fot, power: 1}]\n", "'foot'");
 }
 
+TEST(ThermalScene, RefusesKeysThatTheStepperDoesNotLookAt) {
+  const std::string copper = "material: copper\nprescribed_temperatures: [{node_set: bottom, temperature: 300 K}]\n";
+  for (const std::string key : {"tolerance: 1 K", "initial: 1 s", "maximum: 1 s"}) {
+    const std::string name = "time_step." + key.substr(0, key.find(':')) + ": ", step = "time_step: {" + key + "}\n";
+    expect_refused(copper + step, name + "the stepper is 'explicit'; only tr_bdf2");
+    for (const std::string stepper : {"backward_euler", "crank_nicolson", "steady"})
+      expect_refused(copper + "stepper: " + stepper + "\ntime_step: {fixed: 1 s, " + key + "}\n",
+                     name + "the stepper is '" + stepper);
+    expect_refused(copper + "stepper: tr_bdf2\ntime_step: {fixed: 1 s, " + key + "}\n", name + "the step is fixed");
+  }
+  for (const std::string stepper : {"backward_euler", "crank_nicolson", "tr_bdf2", "steady"})
+    expect_refused(copper + "stepper: " + stepper + "\ntime_step: {fixed: 1 s, scale: 0.5}\n", "time_step.scale: ");
+  for (const std::string key : {"tolerance: 1e-6", "max_iterations: 7", "preconditioner: jacobi"})
+    expect_refused(copper + "solver: {" + key + "}\n", "nothing is solved for");
+  EXPECT_FALSE(read("mesh: fine\n" + copper + "time_step: {fixed: 1 s, scale: 0.5}\n").diagnostics.any());
+}
+
+TEST(ThermalScene, RefusesToRadiateToLessThanNothing) {
+  const std::string start = "material: copper\nstepper: tr_bdf2\nradiation: [{side_set: skin, emissivity: 1, ambient: ";
+  expect_refused(start + "-500 K}]\n", "ambient: -500 K; expected an absolute temperature");
+  expect_refused(start + "{table: [[0 s, -1 K], [1 s, 300 K]]}}]\n", "expected an absolute temperature");
+  expect_refused(start + "{expression: '-3 - t'}}]\n", "expected an absolute temperature");
+}
+
 TEST(ThermalScene, RefusesWhatMakesNoSense) {
   expect_refused("material: copper\nstepper: backward_euler\n", "needs a step");
   expect_refused("material: copper\nstepper: steady\n", "nothing determines");

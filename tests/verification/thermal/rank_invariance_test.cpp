@@ -67,10 +67,17 @@ void expect_same_state(const Case& c, const Mesh& mesh, const char* when) {
   EXPECT_EQ(mine.scalar("time"), reference.scalar("time"));
   for (const char* scalar : {"heat.last_dt", "heat.next_step", "heat.multigrid_factor"})
     EXPECT_EQ(mine.scalar(scalar), reference.scalar(scalar)) << c.name << ", " << when << ", " << scalar;
+  for (const char* integer : {"heat.multigrid", "heat.multigrid_stale"})
+    EXPECT_EQ(mine.integer(integer), reference.integer(integer)) << c.name << ", " << when << ", " << integer;
   const GlobalOrder order(comm, mesh.node_ids, mesh.global_nodes);
-  for (const char* name :
-       {"initial_temperature", "temperature_rise", "waiting_heat", "supplied_transferred", "supplied_flux",
-        "supplied_convection", "supplied_source", "supplied_prescribed", "last_increment", "displacement"}) {
+  int supplies = 0;
+  for (const char* name : {"initial_temperature", "temperature_rise", "waiting_heat", "last_increment", "displacement",
+                           "supplied_transferred", "supplied_flux", "supplied_convection", "supplied_source",
+                           "supplied_prescribed", "supplied_radiation", "supplied_steady"}) {
+    const bool supply = std::string(name).starts_with("supplied_");
+    EXPECT_EQ(mine.has(std::string("heat.") + name), reference.has(std::string("heat.") + name)) << name;
+    if (supply && !reference.has(std::string("heat.") + name)) continue;
+    supplies += supply ? 1 : 0;
     const int components = std::string(name) == "displacement" ? 3 : 1;
     std::vector<double> a(mesh.node_ids.size() * static_cast<std::size_t>(components)), b(a.size());
     reference.array(std::string("heat.") + name, order, a, components);
@@ -78,6 +85,7 @@ void expect_same_state(const Case& c, const Mesh& mesh, const char* when) {
     EXPECT_TRUE(a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0)
         << c.name << ", " << when << ", " << name;
   }
+  EXPECT_EQ(supplies, 5 + (c.warm ? 1 : 0) + (c.stepper == ThermalStepper::steady ? 1 : 0)) << c.name;
 }
 
 TEST(ThermalRanks, StateIsTheSame) {
