@@ -9,16 +9,23 @@ if(NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE Release CACHE STRING "Debug, Release or RelWithDebInfo" FORCE)
 endif()
 
-# The kernels need AVX2 and FMA to be fast; a host without them gets the baseline.
+# The kernels need AVX2 and FMA to be fast; a host without them gets the baseline. With AVX-512 they keep vectors of four
+# numbers, which do not slow the clock down, and use its 32 registers: fewer spills, the same bits.
 if(EXISTS /proc/cpuinfo)
   file(STRINGS /proc/cpuinfo _avx2 REGEX "avx2.*fma|fma.*avx2" LIMIT_COUNT 1)
+  file(STRINGS /proc/cpuinfo _avx512 REGEX "avx512f.*avx512dq.*avx512cd.*avx512bw.*avx512vl" LIMIT_COUNT 1)
 endif()
-if(_avx2)
+if(_avx512)
+  set(_march x86-64-v4)
+elseif(_avx2)
   set(_march x86-64-v3)
 endif()
 set(TENON_MARCH "${_march}" CACHE STRING "Value of -march; empty for the compiler's default")
 if(TENON_MARCH)
   add_compile_options(-march=${TENON_MARCH})
+  if(TENON_MARCH MATCHES "x86-64-v4")
+    add_compile_options(-mprefer-vector-width=256)
+  endif()
 endif()
 
 # No contraction by default: the same expression must round the same way in every copy of it
