@@ -346,8 +346,8 @@ TENON_KERNEL Pack ShellGroup<S>::vary(std::size_t b, int lane, const ShellGeomet
   const Pack squash = dt > 0 ? load(work.flow.squash[0] + lane) : one;
   const Pack g11 = dot(g.g1, g.g1), g22 = dot(g.g2, g.g2);
   if constexpr (S::nodes == 4) {
-    const Pack third = (1.0 / 3.0) * volume, warp = g.h.z / k.thickness;
-    const Pack soft = greater_of(1.0 / (1.0 + warp * warp), broadcast<Pack>(0.05));
+    const Pack third = (1.0 / 3.0) * volume, squared = k.thickness * k.thickness;
+    const Pack soft = greater_of(squared / (squared + g.h.z * g.h.z), broadcast<Pack>(0.05));
     const Pack bend = dt > 0 && second_moment_ > 0 ? load(work.flow.bend[0] + lane) : one;
     for (int i = 0; i < 6; ++i) {
       const Pack metric = i % 2 == 0 ? g11 : g22;
@@ -380,36 +380,35 @@ template <typename S>
   const ShellGeometry<Pack> g = shell_geometry<S>(placed(work, lane), reference(b, lane));
   const Pack t = load(thickness_[b][0] + lane), m = load(mass[b][0] + lane), volume = g.area * t;
   const ShellStiffness<Pack> k = stiffness(b, lane, t);
-  ShellResultants<Pack> q;
-  const auto mean = [&](int i) { return load(work.resultant[i] + lane); };
-  for (int i = 0; i < 3; ++i) {
-    q.membrane[i] = volume * mean(i);
-    q.curvature[i] = volume * (k.offset * mean(i) + (0.5 * t) * mean(3 + i));
-  }
-  for (int i = 0; i < 2; ++i) q.shear[i] = (5.0 / 6.0) * volume * mean(6 + i);
-  const Pack hourglass = vary(b, lane, g, k, dt, work, q);
-
   // Viscous pressure in the plane of the middle surface; L^2 = 2/sum |grad N|^2.
   const Pack stretch = load(work.strain[0] + lane) + load(work.strain[1] + lane);
   const Pack rate = dt > 0 ? (1.0 / dt) * stretch : load(stretching_[b][0] + lane);
   store(stretching_[b][0] + lane, rate);
   const Pack trace = shell_metric<S>(g).trace, size = (2.0 * S::nodes) / trace;
+  const Pack modulus = (0.5 / S::nodes) * (k.moduli.lambda + 2.0 * k.moduli.shear);
   ElementScale<Pack> scale{};
-  scale.wave_rate = square_root((k.moduli.lambda + 2.0 * k.moduli.shear) * volume / (m * size));
+  scale.wave_rate = square_root(modulus * trace * volume * (1.0 / m));
   const Pack intensity = viscosity_.intensity(scale, rate);
-  const Pack viscous = m * size * intensity * rate;
-  for (int i = 0; i < 2; ++i)
-    q.membrane[i] = q.membrane[i] + viscous, q.curvature[i] = q.curvature[i] + k.offset * viscous;
+  // The step before the forces: a long chain of roots, during which the machine can work on these.
+  const Pack slow = load(slowness_[b][0] + lane);
+  const Pack frequency = shell_frequency_squared<S>(g, k, m, slow);
+  const Pack damping = (2.0 * S::nodes) * intensity * (1.0 + k.offset * k.offset * slow);
+  const Pack step = check(damped_step(frequency, damping, Pack{}), t, work, lane);
 
+  ShellResultants<Pack> q;
+  const Pack viscous = m * size * intensity * rate;
+  const auto mean = [&](int i) { return load(work.resultant[i] + lane); };
+  for (int i = 0; i < 3; ++i) {
+    q.membrane[i] = i < 2 ? volume * mean(i) + viscous : volume * mean(i);
+    q.curvature[i] = k.offset * q.membrane[i] + (0.5 * volume) * (t * mean(3 + i));
+  }
+  for (int i = 0; i < 2; ++i) q.shear[i] = (5.0 / 6.0) * volume * mean(6 + i);
+  const Pack hourglass = vary(b, lane, g, k, dt, work, q);
   const ShellForces<Pack> f = shell_forces<S>(g, q);
   store_rows(f.force, g.axes, force);
   store_rows(f.moment, g.axes, moment);
   if (dt > 0) add_energies(b, lane, volume, hourglass, viscous * stretch, work);
-
-  const Pack slow = load(slowness_[b][0] + lane);
-  const Pack frequency = shell_frequency_squared<S>(g, k, m, slow);
-  const Pack damping = (2.0 * S::nodes) * intensity * (1.0 + k.offset * k.offset * slow);
-  return check(damped_step(frequency, damping, Pack{}), t, work, lane);
+  return step;
 }
 
 /// The step, or a code.

@@ -236,7 +236,8 @@ TENON_KERNEL ShellForces<R> shell_forces(const ShellGeometry<R>& g, const ShellR
   const auto in_plane = [](const R& a, const Plane<R>& u, const R& b, const Plane<R>& w) {
     return Vector<R>{a * u.x + b * w.x, a * u.y + b * w.y, R{}};
   };
-  ShellModes<R> f, d;
+  ShellForces<R> result;
+  ShellModes<R>&f = result.force, &moment = result.moment, d;
   f.mean = Vector<R>{}, f.hourglass = Vector<R>{}, d.hourglass = Vector<R>{};
   f.xi = {xx * g.g1.x + xy * g.g1.y, yx * g.g1.x + yy * g.g1.y, s1};
   f.eta = {xx * g.g2.x + xy * g.g2.y, yx * g.g2.x + yy * g.g2.y, s2};
@@ -264,10 +265,10 @@ TENON_KERNEL ShellForces<R> shell_forces(const ShellGeometry<R>& g, const ShellR
     const R a = (1.0 / 6.0) * s1, b = (1.0 / 6.0) * s2, c = 0.5 * q.hourglass[0];
     d.xi = d.xi + in_plane(a, g.a1, -(a + b) - c, g.a2), d.eta = d.eta + in_plane(b, g.a2, c - (a + b), g.a1);
   }
-  ShellModes<R> moment = director_moments<S>(g, d);
+  moment = director_moments<S>(g, d);
   moment.mean.z += q.drill[0], moment.xi.z += q.drill[1], moment.eta.z += q.drill[2];
   if constexpr (S::drills == 4) moment.hourglass.z += q.drill[3];
-  return {f, moment};
+  return result;
 }
 
 }  // namespace tenon

@@ -67,7 +67,9 @@ TENON_KERNEL R shell_frequency_squared(const ShellGeometry<R>& g, const ShellSti
   const R lambda = k.moduli.lambda, shear = k.moduli.shear, p = lambda + 2.0 * shear;
   const R spread = greater_of(m.trace * m.trace - 4.0 * m.determinant, R{});
   const R constant = 0.5 * unit * (p * m.trace + square_root(p * p * spread + 4.0 * lambda * lambda * m.determinant));
-  const R steepest = 0.5 * (m.trace + square_root(spread));
+  // Of the metric; the row sums bound it, without a root where the triangle needs it sharp.
+  const R steepest =
+      S::nodes == 4 ? greater_of(m.g11, m.g22) + greater_of(m.g12, -m.g12) : 0.5 * (m.trace + square_root(spread));
   const R shear_unit = k.shear_modulus * unit, both = m.g11 + m.g22;
   R membrane = constant, transverse, turning{}, warp_shear{}, coupling{};
   if constexpr (S::nodes == 4) {
