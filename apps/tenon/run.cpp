@@ -135,12 +135,7 @@ ExitCode run_scene(const Communicator& comm, const RunArguments& arguments, cons
 
   print_transfers(simulation);
   const double wall = seconds_since(began);
-  RunFacts facts{scene.title,
-                 scene.path,
-                 version_text(),
-                 wall,
-                 history->greatest_energy_error(),
-                 simulation.ending()};
+  RunFacts facts{scene.title, scene.path, version_text(), wall, history->greatest_energy_error(), simulation.ending()};
   report_run(simulation, facts, folder + "/summary.json");
   print_results(log, folder, simulation.stopped());
   return simulation.stopped() ? ExitCode::stopped : ExitCode::done;

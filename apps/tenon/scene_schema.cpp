@@ -42,8 +42,7 @@ Schema transfer_schema() {
 
 Schema point_schema() {
   Schema s("A point whose field values become columns of history.csv.");
-  s.text("component", "Component that shows the field; may be left out if there is only one.");
-  s.text("field", "Field name, as `displacement` or `temperature`.").required();
+  add_shown_field(s);
   s.vector("point", "m", "Place in the undeformed body; the nearest node or element is taken.").required();
   return s;
 }
@@ -69,6 +68,11 @@ Schema output_schema() {
 }
 
 }  // namespace
+
+void add_shown_field(Schema& s) {
+  s.text("component", "Component that shows the field; may be left out if there is only one.");
+  s.text("field", "Field name, as `displacement` or `temperature`.").required();
+}
 
 Schema scene_schema() {
   Schema s("A Tenon scene.");

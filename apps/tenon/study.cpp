@@ -20,19 +20,25 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// FNV-1a of a file's bytes; only told apart from another state of the same file.
+/// FNV-1a of a file's bytes; only told apart from another state of the same file. 0 if it cannot be read.
 std::uint64_t digest(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
+  if (!file) return 0;
   std::uint64_t hash = 14695981039346656037ULL;
-  for (char c; file.get(c);) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
+  std::vector<char> part(std::size_t{1} << 20);
+  while (file.read(part.data(), static_cast<std::streamsize>(part.size())) || file.gcount() > 0)
+    for (std::streamsize i = 0; i < file.gcount(); ++i)
+      hash = (hash ^ static_cast<unsigned char>(part[static_cast<std::size_t>(i)])) * 1099511628211ULL;
   return hash;
 }
 
-/// Collective. All that the result and the time of a run depend on. Equal texts mean that it need not be repeated.
-std::string identity(const Communicator& comm, const LoadedScene& scene, const StudyRun& run) {
-  Json all{{"version", version_text()}, {"ranks", comm.size()}, {"settings", run.settings}};
+/// Collective. All that the result and the time of a run depend on, and what is written. Equal texts mean that it need
+/// not be repeated. The version alone would not tell a program that was built again.
+std::string identity(const Communicator& comm, const LoadedScene& scene, const StudyPlan& plan, const StudyRun& run) {
+  Json all{{"version", version_text()}, {"ranks", comm.size()}, {"settings", run.settings}, {"frames", plan.frames}};
   all["scene"] = read_scene_text(comm, scene.path);
   comm.vote_on_root([&] {
+    all["program"] = digest("/proc/self/exe");
     for (const auto& [name, block] : scene.value.entries("meshes"))
       if (block.text("type") == "file") {
         const std::string path = (fs::path(scene.folder) / block.text("file")).string();
@@ -86,13 +92,13 @@ class Study {
     log_.print("run {} of {}: {}", r + 1, rows_.size(), name);
     try {
       const LoadedScene scene = load_scene(comm_, plan_.scene, parse_overrides(plan_.runs[r].settings));
-      const std::string wanted = identity(comm_, scene, plan_.runs[r]);
+      const std::string wanted = identity(comm_, scene, plan_, plan_.runs[r]);
       const bool again = reuse(r, scene, wanted);
       if (!again && execute(r, wanted) == ExitCode::stopped) {
         log_.print("stopped on request; the same command goes on with run {}", r + 1);
         return ExitCode::stopped;
       }
-      measure_columns(r);
+      if (!again) measure_columns(r);
       row.done = true;
       row.status = "done";
       tell(r, again);
@@ -146,20 +152,46 @@ class Study {
     });
   }
 
-  /// Collective. Whether the run was done before; its times are then those of its record, and its fields are measured
-  /// in its final state.
-  bool reuse(std::size_t r, const LoadedScene& scene, const std::string& wanted) {
-    StudyRow& row = rows_[r];
+  /// Collective. Set-up seconds, seconds, steps and element-steps of a run that was done before; empty if it was not,
+  /// or if the record of it is damaged.
+  std::vector<double> recorded(std::size_t r, const std::string& wanted) const {
     std::vector<double> kept;
-    if (comm_.rank() == 0 && fs::exists(record(r)) && fs::exists(folder(r) + "/final.h5")) {
+    comm_.vote_on_root([&] {
+      if (!fs::exists(record(r)) || !fs::exists(folder(r) + "/final.h5")) return;
       std::ifstream file(record(r));
-      const Json old = Json::parse(file, nullptr, false);
-      if (old.is_object() && old.value("identity", "") == wanted)
-        kept = {old.value("set_up_seconds", unknown), old.value("seconds", unknown), old.value("steps", 0.0),
-                old.value("element_steps", 0.0)};
-    }
+      try {
+        const Json old = Json::parse(file);
+        if (old.at("identity") == wanted)
+          for (const char* key : {"set_up_seconds", "seconds", "steps", "element_steps"})
+            kept.push_back(old.at(key).get<double>());
+      } catch (const Json::exception&) {
+        kept.clear();
+      }
+    });
     comm_.broadcast(kept);
+    return kept;
+  }
+
+  /// Collective. Whether the run was done before; its times are then those of its record, and its fields are measured
+  /// in its final state. What is damaged is made again.
+  bool reuse(std::size_t r, const LoadedScene& scene, const std::string& wanted) {
+    const std::vector<double> kept = recorded(r, wanted);
     if (kept.empty()) return false;
+    try {
+      measure_again(r, scene, kept);
+      return true;
+    } catch (const Error& error) {
+      if (mistaken_ && error.code() == ExitCode::usage) throw;
+      mistaken_ = false;
+      log_.print("  its folder holds the same run, but cannot be used: {}", error.what());
+      rows_[r] = {};
+      rows_[r].values.resize(plan_.quantities.size());
+      return false;
+    }
+  }
+
+  void measure_again(std::size_t r, const LoadedScene& scene, const std::vector<double>& kept) {
+    StudyRow& row = rows_[r];
     row.set_up = kept[0], row.seconds = kept[1], row.steps = kept[2], row.work = kept[3];
     Log silent(false);
     const Communicator own = comm_.duplicate();
@@ -172,16 +204,10 @@ class Study {
     mistaken_ = false;
     row.size = size_of(r, mean_element_size(*built.simulation));
     measure_fields(r, *built.simulation);
-    return true;
+    measure_columns(r);
   }
 
-  std::vector<double> numbers(std::size_t r) const {
-    std::vector<double> values;
-    for (const std::string& value : plan_.runs[r].values) values.push_back(as_number(value));
-    return values;
-  }
-
-  double size_of(std::size_t r, double mean) const { return plan_.size ? (*plan_.size)(numbers(r)) : mean; }
+  double size_of(std::size_t r, double mean) const { return plan_.size ? (*plan_.size)(plan_.runs[r].numbers) : mean; }
 
   void measure_fields(std::size_t r, const Simulation& simulation) {
     for (std::size_t q = 0; q < plan_.quantities.size(); ++q)
@@ -190,7 +216,8 @@ class Study {
   void measure_columns(std::size_t r) {
     for (std::size_t q = 0; q < plan_.quantities.size(); ++q)
       if (!plan_.quantities[q].is_field)
-        rows_[r].values[q] = measure_history(comm_, folder(r) + "/history.csv", plan_.quantities[q], numbers(r));
+        rows_[r].values[q] =
+            measure_history(comm_, folder(r) + "/history.csv", plan_.quantities[q], plan_.runs[r].numbers);
   }
 
   void tell(std::size_t r, bool again) {

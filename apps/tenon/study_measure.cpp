@@ -115,10 +115,13 @@ class ErrorNorm {
   double greatest_ = 0, exact_greatest_ = 0;
 };
 
-double value_at(const HistoryTable& table, const std::vector<double>& column, double time) {
+double value_at(const HistoryTable& table, const std::vector<double>& column, const StudyQuantity& quantity) {
+  const double time = quantity.time;
   const std::vector<double>& times = table.columns[static_cast<std::size_t>(table.find("time"))];
   const auto next = std::ranges::lower_bound(times, time);
-  if (next == times.end() || (next == times.begin() && *next > time)) return unknown;
+  if (next == times.end() || (next == times.begin() && *next > time))
+    refuse(quantity, fmt::format("time: {:.6g} s lies outside the history of this run, {:.6g} s to {:.6g} s", time,
+                                 times.front(), times.back()));
   const auto i = static_cast<std::size_t>(next - times.begin());
   if (*next == time || i == 0) return column[i];
   return column[i - 1] + (column[i] - column[i - 1]) * ((time - times[i - 1]) / (times[i] - times[i - 1]));
@@ -193,10 +196,12 @@ Measured measure_history(const Communicator& comm, const std::string& csv, const
     using Take = StudyQuantity::Take;
     result.value = quantity.take == Take::maximum   ? *std::ranges::max_element(column)
                    : quantity.take == Take::minimum ? *std::ranges::min_element(column)
-                   : quantity.take == Take::at      ? value_at(table, column, quantity.time)
+                   : quantity.take == Take::at      ? value_at(table, column, quantity)
                                                     : column.back();
     if (!quantity.reference) return;
     const double reference = (*quantity.reference)(arguments);
+    if (!std::isfinite(reference))
+      refuse(quantity, "reference: '" + quantity.reference->text() + "' is not a finite number for this run");
     result.error = std::abs(result.value - reference) / (reference != 0 ? std::abs(reference) : 1.0);
   });
   std::vector<double> both{result.value, result.error};

@@ -47,7 +47,8 @@ struct Table {
   std::vector<double> column(const std::string& name) const {
     const auto place = static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
     std::vector<double> values;
-    for (const Cells& row : rows) values.push_back(place < row.size() ? as_number(row[place]) : NAN);
+    for (const Cells& row : rows)
+      values.push_back(place < row.size() ? scene::number_in_si(row[place]).value_or(NAN) : NAN);
     return values;
   }
 };

@@ -4,12 +4,13 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <charconv>
+#include <cmath>
 #include <filesystem>
 #include <limits>
 #include <set>
 
 #include "apps/tenon/load_scene.hpp"
+#include "apps/tenon/scene_schema.hpp"
 #include "apps/tenon/study_arguments.hpp"
 
 namespace tenon {
@@ -37,8 +38,7 @@ Schema history_schema() {
 
 Schema field_schema() {
   Schema s("A field at the end of the run against an exact solution: relative L2 norm and greatest error.");
-  s.text("component", "Component that shows the field; may be left out if there is only one.");
-  s.text("field", "Field name, as `displacement` or `temperature`.").required();
+  add_shown_field(s);
   s.choice("part", {"value", "x", "y", "z", "xx", "yy", "zz", "xy", "yz", "zx"},
            "Component of a vector or tensor; `value` for a scalar.", "value");
   s.text("exact", "Exact solution in SI: an expression of t, x, y, z (place in the undeformed body).").required();
@@ -101,8 +101,19 @@ void parse(const Value& block, const std::string& key, Diagnostics& diagnostics,
   }
 }
 
-StudyQuantity read_quantity(const std::string& name, const Value& block, const std::vector<std::string>& names,
-                            Diagnostics& diagnostics) {
+/// Complains about values that a formula uses and that are no numbers.
+void check_values(const scene::Expression& formula, const Value& block, const std::string& key,
+                  const std::vector<StudyVariation>& vary, Diagnostics& diagnostics) {
+  for (const StudyVariation& v : vary)
+    for (const std::string& value : v.values)
+      if (formula.uses(v.name) && !scene::number_in_si(value))
+        diagnostics.error(block.where(key), fmt::format("{}: uses '{}', whose value '{}' is not a number, with or "
+                                                        "without a unit",
+                                                        key, v.name, value));
+}
+
+StudyQuantity read_quantity(const std::string& name, const Value& block, const std::vector<StudyVariation>& vary,
+                            const std::vector<std::string>& names, Diagnostics& diagnostics) {
   StudyQuantity q;
   q.name = name;
   q.is_field = block.text("type") == "field";
@@ -127,7 +138,15 @@ StudyQuantity read_quantity(const std::string& name, const Value& block, const s
   if (block.has("reference"))
     parse(block, "reference", diagnostics,
           [&](const std::string& text) { q.reference = scene::Expression(text, variables); });
+  if (q.reference) check_values(*q.reference, block, "reference", vary, diagnostics);
   return q;
+}
+
+std::vector<double> numbers_of(const StudyRun& run) {
+  std::vector<double> numbers;
+  for (const std::string& value : run.values)
+    numbers.push_back(scene::number_in_si(value).value_or(std::numeric_limits<double>::quiet_NaN()));
+  return numbers;
 }
 
 /// Every run takes one value of every variation: in step, or all combinations with the last variation running fastest.
@@ -154,11 +173,21 @@ std::vector<StudyRun> make_runs(const StudyPlan& plan, const std::vector<std::st
       if (v > 0) run.folder += '_';
       run.folder += plain(plan.vary[v].name + "-" + run.values[v]);
     }
+    run.numbers = numbers_of(run);
     if (run.folder.size() > 120) run.folder.resize(120);
     const std::string base = run.folder;
     for (int n = 2; !folders.insert(run.folder).second; ++n) run.folder = fmt::format("{}~{}", base, n);
   }
   return runs;
+}
+
+void check_sizes(const StudyPlan& plan, const Value& study, Diagnostics& diagnostics) {
+  if (!plan.size) return;
+  for (const StudyRun& run : plan.runs)
+    if (const double size = (*plan.size)(run.numbers); !(size > 0) || !std::isfinite(size))
+      diagnostics.error(study.where("size"), fmt::format("size: is {} for the run '{}'; expected more than 0 (values "
+                                                         "with units count in SI)",
+                                                         size, run.folder));
 }
 
 /// Every scene of the study is read before the first one runs: a key that does not exist is found at once.
@@ -222,21 +251,17 @@ StudyPlan load_study(const Communicator& comm, const StudyArguments& arguments) 
   for (const StudyVariation& v : plan.vary) names.push_back(v.name);
   if (study.has("size"))
     parse(study, "size", diagnostics, [&](const std::string& t) { plan.size = scene::Expression(t, names); });
+  if (plan.size) check_values(*plan.size, study, "size", plan.vary, diagnostics);
   for (const auto& [name, block] : study.entries("quantities"))
-    plan.quantities.push_back(read_quantity(name, block, names, diagnostics));
+    plan.quantities.push_back(read_quantity(name, block, plan.vary, names, diagnostics));
   diagnostics.throw_if_any();
   std::vector<std::string> settings = study.texts("settings");
   settings.insert(settings.end(), arguments.settings.begin(), arguments.settings.end());
   plan.runs = make_runs(plan, settings);
+  check_sizes(plan, study, diagnostics);
+  diagnostics.throw_if_any();
   check_scenes(comm, plan);
   return plan;
-}
-
-double as_number(const std::string& value) {
-  double number = 0;
-  const auto result = std::from_chars(value.data(), value.data() + value.size(), number);
-  const bool whole = result.ec == std::errc() && result.ptr == value.data() + value.size();
-  return whole ? number : std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace tenon

@@ -48,6 +48,7 @@ struct StudyRun {
   std::vector<std::string> values;    ///< of each variation
   std::vector<std::string> settings;  ///< key.path=value, those of the whole study first
   std::string folder;                 ///< below that of the study
+  std::vector<double> numbers = {};   ///< the values as formulas see them, in SI; NaN where one is no number
 };
 
 struct StudyPlan {
@@ -64,8 +65,5 @@ scene::Schema study_schema();
 /// Collective. Reads and checks the study, and every one of its scenes. Throws Error(usage) with all complaints,
 /// Error(file).
 StudyPlan load_study(const Communicator& comm, const StudyArguments& arguments);
-
-/// The value of a variation as a number; NaN if it is none.
-double as_number(const std::string& value);
 
 }  // namespace tenon

@@ -35,13 +35,27 @@ std::vector<std::size_t> refinement(const std::vector<std::size_t>& group, const
   return good;
 }
 
+/// Sizes that differ by round-off only do not say which is the finer.
+bool finer(const StudyRow& a, const StudyRow& b) {
+  constexpr double round_off = 1e-9;
+  return a.size < b.size * (1 - round_off);
+}
+
 double relative(double value, double reference) {
   return std::abs(value - reference) / (reference != 0 ? std::abs(reference) : 1.0);
 }
 
 /// Errors of a quantity without a reference.
-std::string extrapolate(const StudyQuantity& quantity, std::size_t q, const std::vector<std::size_t>& good,
+std::string extrapolate(const StudyPlan& plan, std::size_t q, const std::vector<std::size_t>& good,
                         std::vector<StudyRow>& rows) {
+  const StudyQuantity& quantity = plan.quantities[q];
+  for (std::size_t i = 1; i < good.size(); ++i)
+    if (!finer(rows[good[i]], rows[good[i - 1]]))
+      return fmt::format(
+          "{}: the runs {} and {} have the same size, {:.4g}, so none is the finest; give the study a `size` that "
+          "tells "
+          "them apart: no error",
+          quantity.name, plan.runs[good[i - 1]].folder, plan.runs[good[i]].folder, rows[good[i]].size);
   if (good.size() < 3)
     return fmt::format("{}: {} runs of different size, but an extrapolation needs three: no error", quantity.name,
                        good.size());
@@ -110,12 +124,16 @@ std::vector<std::string> analyse(const StudyPlan& plan, std::vector<StudyRow>& r
     for (std::size_t q = 0; q < plan.quantities.size(); ++q) {
       const StudyQuantity& quantity = plan.quantities[q];
       const std::vector<std::size_t> good = refinement(group, rows, q);
-      if (!quantity.is_field && !quantity.reference) notes.push_back(extrapolate(quantity, q, good, rows));
+      if (!quantity.is_field && !quantity.reference) {
+        for (const std::size_t r : group) rows[r].values[q].error = unknown;
+        notes.push_back(extrapolate(plan, q, good, rows));
+      }
       for (std::size_t i = 1; i < good.size(); ++i) {
         const StudyRow& before = rows[good[i - 1]];
         StudyRow& row = rows[good[i]];
         const double errors = before.values[q].error / row.values[q].error, sizes = before.size / row.size;
-        if (errors > 0 && std::isfinite(errors) && sizes > 1) row.orders[q] = std::log(errors) / std::log(sizes);
+        if (errors > 0 && std::isfinite(errors) && finer(row, before))
+          row.orders[q] = std::log(errors) / std::log(sizes);
       }
     }
   return notes;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -28,6 +29,10 @@ class Expression {
   struct Parsed;
   std::shared_ptr<const Parsed> parsed_;
 };
+
+/// What a formula sees of a value such as "4" or "20 mm": the number in SI, whatever it measures; nothing if it is
+/// none.
+std::optional<double> number_in_si(const std::string& text);
 
 /// The expression of t, x, y, z (SI) as a function: scale * expression + offset. Uniform if it does not use x, y, z,
 /// constant if it uses no variable. Throws as Expression.

@@ -2,6 +2,8 @@
 // Reads numbers with units and converts them to SI by UDUNITS-2.
 #include "framework/scene/units.hpp"
 
+#include "framework/scene/expression.hpp"
+
 #include <udunits2.h>
 
 #include <algorithm>
@@ -297,6 +299,18 @@ Quantity read_quantity(const std::string& text, const std::string& to) {
   quantity.si = exact ? *value : quantity.conversion.to_si(*value);
   if (!std::isfinite(quantity.si)) throw fail("the number is too large");
   return quantity;
+}
+
+std::optional<double> number_in_si(const std::string& text) {
+  for (const KnownUnit& known : known_units()) {
+    if (known.unit == temperature_difference) continue;
+    try {
+      return parse_quantity(text, known.unit);  // a plain number is of every kind
+    } catch (const std::invalid_argument&) {    // of another kind
+      continue;
+    }
+  }
+  return std::nullopt;
 }
 
 double parse_quantity(const std::string& text, const std::string& to) {

@@ -36,6 +36,10 @@ refused 2 "plastic_heat" check "$(changed 's/from: mechanics.plastic_heat/from: 
 refused 2 "changed.yaml:" check "$(changed 's/^meshes:/meshes: [/')"
 refused 2 "nowhere.yaml" run nowhere.yaml
 refused 2 "--set" check "$small" --set end_tim=5
+# Beside another component: steady must know when, a step of its own must see the heat.
+refused 2 "changed.yaml:40:" check "$(changed "s/stepper: crank_nicolson/stepper: steady\n    prescribed_temperatures: [{node_set: z_min, temperature: 300 K}]/; s/    time_step: {fixed: 0.2 us}//")"
+refused 2 "every: source_step" check "$(changed 's/stepper: crank_nicolson/stepper: tr_bdf2/; s/    time_step: {fixed: 0.2 us}//; s/, every: source_step//')"
+refused 2 "changed.yaml:41:" check "$(changed 's/{fixed: 0.2 us}/{fixed: 0.2 us, maximum: 1 us}/')"
 refused 3 "missing.exo" check "$(changed 's/type: cylinder.*}/type: file, file: missing.exo}/')"
 refused 3 "checkpoint" run "$small" --restart "$small" -o kept
 head -c 1000 "$scenes/hot-taylor-bar/bar_hex.exo" >short.exo

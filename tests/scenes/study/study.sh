@@ -32,6 +32,21 @@ study 1 one wave.yaml --no-picture
 [ "$stamp" = "$(stat -c %Y.%s one/N-160_*/final.h5)" ] || fail "a final state was written again"
 cut -d, -f1-9 one/study.csv | cmp - one.txt
 
+# What is damaged is made again: a final state that is cut short, a history that is gone, a record that is none.
+cut_short() { truncate -s 1000 two/N-40_*/final.h5; }
+lose() { rm two/N-40_*/history.csv; }
+void_record() { sed -i 's/"seconds": [^,]*,/"seconds": null,/' two/N-40_*/run.json; }
+for damage in cut_short lose void_record; do
+  $damage
+  study 2 two wave.yaml --no-picture || { cat two.log; fail "not repaired: $damage"; }
+  [ "$(grep -c 'not repeated' two.log)" = 2 ] || { cat two.log; fail "$damage: one run should be repeated"; }
+  cut -d, -f1-9 two/study.csv | cmp - one.txt
+done
+# The frames are part of what a run is.
+{ cat wave.yaml; echo "frames: true"; } >frames.yaml
+study 1 one frames.yaml --no-picture
+[ "$(grep -c 'not repeated' one.log)" = 0 ] || { cat one.log; fail "a run without frames was taken for one with"; }
+
 # Of two runs the second inverts or is refused: told, recorded, exit code not zero, the third still runs.
 set +e
 study 1 broken "$scenes/elastic-wave/scene.yaml" --set end_time="40 us" --set meshes.bar.elements="[20, 1, 1]" \

@@ -96,6 +96,36 @@ TEST(StudyTable, ErrorsAreAgainstTheFinestRunIfTheRunsDoNotConverge) {
   EXPECT_NEAR(rows[1].values[0].error, (100 - 7.25) / 7.25, 1e-12);
 }
 
+TEST(StudyTable, SizesThatAreEqualGiveNoErrorAndAnOldOneGoes) {
+  const std::vector<double> sizes{1, 0.5, 0.25};
+  const StudyPlan plan = plan_of(sizes, false);
+  std::vector<StudyRow> rows = rows_of(sizes, 2);
+  analyse(plan, rows);
+  EXPECT_TRUE(std::isfinite(rows[0].values[0].error));
+  rows[2].size = rows[1].size * (1 - 1e-15);  // mean element sizes of one mesh
+  const std::vector<std::string> notes = analyse(plan, rows);
+  EXPECT_NE(notes[0].find("have the same size"), std::string::npos) << notes[0];
+  for (const StudyRow& row : rows) EXPECT_TRUE(std::isnan(row.values[0].error) && std::isnan(row.orders[0]));
+  const StudyPlan referred = plan_of(sizes, true);
+  rows = rows_of(sizes, 2);
+  rows[2].size = rows[1].size * (1 - 1e-15);
+  EXPECT_TRUE(analyse(referred, rows).empty());
+  EXPECT_NEAR(rows[1].orders[0], 2.0, 1e-9);
+  EXPECT_TRUE(std::isnan(rows[2].orders[0]));
+}
+
+TEST(StudyMeasure, ATimeOutsideTheHistoryAndAReferenceThatIsNoneAreRefused) {
+  std::ofstream("short.csv") << "step,time,q\n0,0,1\n1,1e-6,2\n2,2e-6,4\n";
+  StudyQuantity q;
+  q.name = q.column = "q", q.take = StudyQuantity::Take::at, q.time = 1.5e-6;
+  EXPECT_NEAR(measure_history(testing::communicator(), "short.csv", q, {}).value, 3.0, 1e-12);
+  q.time = 5e-6;
+  EXPECT_THROW(measure_history(testing::communicator(), "short.csv", q, {}), Error);
+  q.take = StudyQuantity::Take::last, q.reference = scene::Expression("1/N", {"t", "N"});
+  EXPECT_NEAR(measure_history(testing::communicator(), "short.csv", q, {0.5}).error, 1.0, 1e-12);
+  EXPECT_THROW(measure_history(testing::communicator(), "short.csv", q, {0.0}), Error);
+}
+
 TEST(StudyArguments, ValuesPartAtCommasOutsideBrackets) {
   using Values = std::vector<std::string>;
   EXPECT_EQ(split_values("20,40, 80"), (Values{"20", "40", "80"}));
@@ -152,6 +182,23 @@ TEST(StudyPlan, MistakesAreNamedBeforeAnythingRuns) {
   a.size = "";
   a.quantities = {"max_eqps:maximal"};
   EXPECT_NE(refusal(a).find("did you mean 'maximum'?"), std::string::npos) << refusal(a);
+}
+
+TEST(StudyPlan, ValuesWithUnitsCountInSi) {
+  StudyArguments a = arguments({"meshes.solid.length=6 mm,12 mm", "end_time=2 us,1e-6"});
+  a.size = "1/length";
+  const StudyPlan plan = load_study(testing::communicator(), a);
+  EXPECT_EQ(plan.runs[0].numbers, (std::vector<double>{0.006, 2e-6}));
+  EXPECT_EQ(plan.runs[1].numbers, (std::vector<double>{0.012, 1e-6}));
+  a.size = "length - 6e-3";
+  EXPECT_NE(refusal(a).find("expected more than 0"), std::string::npos) << refusal(a);
+  a = arguments({"components.conduction.stepper=crank_nicolson,backward_euler"});
+  EXPECT_EQ(refusal(a), "");  // a word, which no formula uses
+  a.size = "1/stepper";
+  EXPECT_NE(refusal(a).find("uses 'stepper', whose value 'crank_nicolson' is not a number"), std::string::npos)
+      << refusal(a);
+  a.size = "", a.reference = "2*stepper";
+  EXPECT_NE(refusal(a).find("reference: uses 'stepper'"), std::string::npos) << refusal(a);
 }
 
 TEST(StudyPlan, AMisspeltKeyOfTheFileIsNamed) {
