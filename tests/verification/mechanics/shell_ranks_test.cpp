@@ -14,9 +14,19 @@ MeshData panel() {
   });
 }
 
-std::unique_ptr<Mechanics> struck(std::shared_ptr<const Mesh> mesh) {
+MaterialDescription failing() {
   MaterialDescription metal = copper();
   metal.failure.emplace().plastic_strain = 0.15;
+  return metal;
+}
+/// All layers in one call (LayerLaw).
+MaterialDescription layered() {
+  MaterialDescription metal = copper();
+  metal.plasticity = LinearHardeningParameters{100e6, 200e6};
+  return metal;
+}
+
+std::unique_ptr<Mechanics> struck(std::shared_ptr<const Mesh> mesh, const MaterialDescription& metal) {
   MechanicsOptions options;
   options.heat = HeatMode::adiabatic;
   options.initial_velocities.push_back({"", "", {20, 0, -150}, {0, -300, 0, 300, 0, 100, 0, -100, 0}, {}});
@@ -29,8 +39,8 @@ std::unique_ptr<Mechanics> struck(std::shared_ptr<const Mesh> mesh) {
 
 constexpr const char* fields[] = {"displacement", "velocity", "stress", "eqps", "temperature", "thickness"};
 
-TEST(ShellRanks, SameBits) {
-  const auto shared = struck(shared_mesh(panel())), whole = struck(whole_mesh(panel()));
+void expect_same_bits_of_ranks(const MaterialDescription& metal) {
+  const auto shared = struck(shared_mesh(panel()), metal), whole = struck(whole_mesh(panel()), metal);
   shared->initialize();
   whole->initialize();
   for (int s = 0; s < 150; ++s) {
@@ -43,9 +53,9 @@ TEST(ShellRanks, SameBits) {
   EXPECT_GT(energy_rows(*shared)["plastic_work"], 0);
 }
 
-TEST(ShellRanks, RestartContinuesBitwise) {
+void expect_same_bits_after_restart(const MaterialDescription& metal) {
   const std::string file = "mechanics_restart_shell_" + std::to_string(communicator().size()) + ".h5";
-  const auto whole = struck(shared_mesh(panel()));
+  const auto whole = struck(shared_mesh(panel()), metal);
   whole->initialize();
   for (int s = 0; s < 60; ++s) whole->advance(whole->time_step());
   {
@@ -53,7 +63,7 @@ TEST(ShellRanks, RestartContinuesBitwise) {
     whole->save(writer);
     writer.finish();
   }
-  const auto continued = struck(shared_mesh(panel()));
+  const auto continued = struck(shared_mesh(panel()), metal);
   {
     const CheckpointReader reader(communicator(), file);
     continued->set_clock(whole->time());
@@ -70,6 +80,19 @@ TEST(ShellRanks, RestartContinuesBitwise) {
   EXPECT_EQ(energy_rows(*continued), energy_rows(*whole));
   communicator().barrier();
   if (communicator().rank() == 0) std::filesystem::remove(file);
+}
+
+TEST(ShellRanks, SameBits) {
+  expect_same_bits_of_ranks(failing());
+}
+TEST(ShellRanks, SameBitsOfLayers) {
+  expect_same_bits_of_ranks(layered());
+}
+TEST(ShellRanks, RestartContinuesBitwise) {
+  expect_same_bits_after_restart(failing());
+}
+TEST(ShellRanks, RestartOfLayersContinuesBitwise) {
+  expect_same_bits_after_restart(layered());
 }
 
 }  // namespace
