@@ -18,22 +18,13 @@ using scene::Value;
 using Kind = PrescribedMotion::Kind;
 using Materials = std::map<std::string, MaterialDescription>;
 
-const MaterialDescription* find_material(const Value& value, const Materials& materials, Diagnostics& diagnostics) {
-  const std::string& name = value.text("material");
-  const auto found = materials.find(name);
-  if (found == materials.end()) {
-    std::vector<std::string> names;
-    for (const auto& [known, material] : materials) names.push_back(known);
-    diagnostics.error(value.where("material"),
-                      fmt::format("material: there is no material '{}'{}", name, scene::suggestion(name, names)));
-    return nullptr;
-  }
-  if (!found->second.elastic) {
-    diagnostics.error(value.where("material"),
-                      fmt::format("material: '{}' has no elastic constants; give it an 'elastic' block", name));
-    return nullptr;
-  }
-  return &found->second;
+const MaterialDescription* find_elastic(const Value& value, const Materials& materials, Diagnostics& diagnostics) {
+  const MaterialDescription* const material = scene::find_material(value, materials, diagnostics);
+  if (!material || material->elastic) return material;
+  diagnostics.error(
+      value.where("material"),
+      fmt::format("material: '{}' has no elastic constants; give it an 'elastic' block", value.text("material")));
+  return nullptr;
 }
 
 MechanicsOptions::Formulation read_formulation(const Value& value) {
@@ -72,39 +63,26 @@ ShellSection read_shell(const Value& own, const Value& all, const std::string& b
   return section;
 }
 
+void read_block(const Value& value, const MeshSummary::Entry& entry, const Value& from, const Materials& materials,
+                MechanicsOptions& options, Diagnostics& diagnostics) {
+  const MaterialDescription* const material = find_elastic(from, materials, diagnostics);
+  if (!material) return;
+  options.blocks.push_back({entry.name, *material, read_formulation(from), {}});
+  if (topology(entry.kind).dimension == 2)
+    options.blocks.back().shell = read_shell(from, value, entry.name, diagnostics);
+  const bool plastic = !std::holds_alternative<std::monostate>(material->plasticity);
+  if (options.heat != HeatMode::none && plastic && !material->thermal)
+    diagnostics.error(from.where("material"),
+                      fmt::format("material: '{}' has no thermal properties, which heat: {} needs; give it a "
+                                  "'thermal' block",
+                                  material->name, value.text("heat")));
+}
+
 void read_blocks(const Value& value, const SceneReader& reader, const Materials& materials, MechanicsOptions& options) {
-  std::map<std::string, Value> own;
-  if (value.has("blocks"))
-    for (const auto& [name, block] : value.entries("blocks")) own.emplace(name, block);
-  std::vector<std::string> names;
-  for (const MeshSummary::Entry& entry : reader.mesh.blocks) {
-    names.push_back(entry.name);
-    const auto found = own.find(entry.name);
-    if (found == own.end() && !value.has("material")) {
-      reader.diagnostics.error(value.where(), fmt::format("block '{}' of the mesh has no material; give 'material' for "
-                                                          "all blocks or an entry under 'blocks'",
-                                                          entry.name));
-      continue;
-    }
-    const Value& from = found == own.end() ? value : found->second;
-    if (const MaterialDescription* material = find_material(from, materials, reader.diagnostics)) {
-      options.blocks.push_back({entry.name, *material, read_formulation(from), {}});
-      if (topology(entry.kind).dimension == 2)
-        options.blocks.back().shell = read_shell(from, value, entry.name, reader.diagnostics);
-      const bool plastic = !std::holds_alternative<std::monostate>(material->plasticity);
-      if (options.heat != HeatMode::none && plastic && !material->thermal)
-        reader.diagnostics.error(
-            from.where("material"),
-            fmt::format("material: '{}' has no thermal properties, which heat: {} needs; give it a "
-                        "'thermal' block",
-                        material->name, value.text("heat")));
-    }
-  }
-  for (const auto& [name, block] : own)
-    if (std::ranges::find(names, name) == names.end())
-      reader.diagnostics.error(value.where_name("blocks", name),
-                               fmt::format("blocks: the mesh {} has no block '{}'{}", reader.mesh.source, name,
-                                           scene::suggestion(name, names)));
+  scene::each_block(value, reader.mesh.blocks, reader.mesh.source, reader.diagnostics,
+                    [&](const MeshSummary::Entry& entry, const Value& from) {
+                      read_block(value, entry, from, materials, options, reader.diagnostics);
+                    });
 }
 
 void read_control(const Value& value, MechanicsOptions& options, Diagnostics& diagnostics) {

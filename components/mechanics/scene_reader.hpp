@@ -11,7 +11,7 @@
 
 #include "components/mechanics/mechanics_options.hpp"
 #include "framework/mesh/mesh_data.hpp"
-#include "framework/scene/value.hpp"
+#include "framework/scene/known_names.hpp"
 
 namespace tenon {
 
@@ -22,15 +22,7 @@ struct SceneReader {
 
   void check_name(const scene::Value& value, const std::string& key, const std::string& name,
                   const std::vector<MeshSummary::Entry>& entries, const std::string& what) const {
-    std::vector<std::string> names;
-    for (const MeshSummary::Entry& entry : entries) names.push_back(entry.name);
-    const auto found = std::ranges::find(names, name);
-    if (found == names.end())
-      diagnostics.error(value.where(key), fmt::format("{}: the mesh {} has no {} '{}'{}", key, mesh.source, what, name,
-                                                      scene::suggestion(name, names)));
-    else if (entries[static_cast<std::size_t>(found - names.begin())].count == 0)
-      diagnostics.error(value.where(key),
-                        fmt::format("{}: {} '{}' of the mesh {} is empty", key, what, name, mesh.source));
+    scene::check_name(value, key, name, entries, what, mesh.source, diagnostics);
   }
 
   std::vector<std::string> names(const scene::Value& value, const char* key,

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "framework/scene/known_names.hpp"
+
 namespace tenon {
 namespace {
 
@@ -111,13 +113,7 @@ Schema source_schema() {
 /// Complains unless `entries` has the name that stands under `key`.
 void check_name(const Value& value, const std::string& key, const std::vector<MeshSummary::Entry>& entries,
                 const std::string& what, const MeshSummary& mesh, Diagnostics& diagnostics) {
-  if (!value.has(key)) return;
-  const std::string& name = value.text(key);
-  std::vector<std::string> names;
-  for (const MeshSummary::Entry& entry : entries) names.push_back(entry.name);
-  if (std::ranges::find(names, name) == names.end())
-    diagnostics.error(value.where(key), fmt::format("{}: the mesh {} has no {} '{}'{}", key, mesh.source, what, name,
-                                                    scene::suggestion(name, names)));
+  if (value.has(key)) scene::check_name(value, key, value.text(key), entries, what, mesh.source, diagnostics);
 }
 
 using Materials = std::map<std::string, MaterialDescription>;
@@ -125,24 +121,17 @@ using Materials = std::map<std::string, MaterialDescription>;
 /// Properties of a material as one block takes them; complaints if it is missing or does not conduct.
 ThermalBlock thermal_block(const std::string& block, const Value& value, const Materials& materials,
                            Diagnostics& diagnostics) {
-  const std::string& name = value.text("material");
-  const auto found = materials.find(name);
-  if (found == materials.end()) {
-    std::vector<std::string> names;
-    for (const auto& [known, material] : materials) names.push_back(known);
-    diagnostics.error(value.where("material"),
-                      fmt::format("material: there is no material '{}'{}", name, scene::suggestion(name, names)));
+  const MaterialDescription* const material = scene::find_material(value, materials, diagnostics);
+  if (!material) return {};
+  if (!material->thermal) {
+    diagnostics.error(
+        value.where("material"),
+        fmt::format("material: '{}' has no thermal properties; give it a 'thermal' block", value.text("material")));
     return {};
   }
-  const MaterialDescription& material = found->second;
-  if (!material.thermal) {
-    diagnostics.error(value.where("material"),
-                      fmt::format("material: '{}' has no thermal properties; give it a 'thermal' block", name));
-    return {};
-  }
-  const ThermalProperties& t = *material.thermal;
+  const ThermalProperties& t = *material->thermal;
   return {block,
-          material.density,
+          material->density,
           t.specific_heat,
           t.conductivity,
           t.reference_temperature,
@@ -156,33 +145,15 @@ ThermalBlock thermal_block(const std::string& block, const Value& value, const M
 
 std::vector<ThermalBlock> read_blocks(const Value& value, const MeshSummary& mesh, const Materials& materials,
                                       Diagnostics& diagnostics) {
-  std::map<std::string, Value> own;
-  if (value.has("blocks"))
-    for (const auto& [name, block] : value.entries("blocks")) own.emplace(name, block);
-  std::vector<std::string> names;
   std::vector<ThermalBlock> blocks;
-  for (const MeshSummary::Entry& entry : mesh.blocks) {
-    names.push_back(entry.name);
-    if (topology(entry.kind).dimension != 3)
-      diagnostics.error(value.where("mesh"),
-                        fmt::format("mesh: block '{}' consists of {}; only solid elements conduct heat", entry.name,
-                                    topology(entry.kind).name));
-    const auto found = own.find(entry.name);
-    if (found != own.end())
-      blocks.push_back(thermal_block(entry.name, found->second, materials, diagnostics));
-    else if (value.has("material"))
-      blocks.push_back(thermal_block(entry.name, value, materials, diagnostics));
-    else
-      diagnostics.error(value.where(),
-                        fmt::format("block '{}' of the mesh has no material; give 'material' for all blocks "
-                                    "or an entry under 'blocks'",
-                                    entry.name));
-  }
-  for (const auto& [name, block] : own)
-    if (std::ranges::find(names, name) == names.end())
-      diagnostics.error(
-          value.where_name("blocks", name),
-          fmt::format("blocks: the mesh {} has no block '{}'{}", mesh.source, name, scene::suggestion(name, names)));
+  scene::each_block(
+      value, mesh.blocks, mesh.source, diagnostics, [&](const MeshSummary::Entry& entry, const Value& from) {
+        if (topology(entry.kind).dimension != 3)
+          diagnostics.error(value.where("mesh"),
+                            fmt::format("mesh: block '{}' consists of {}; only solid elements conduct heat", entry.name,
+                                        topology(entry.kind).name));
+        blocks.push_back(thermal_block(entry.name, from, materials, diagnostics));
+      });
   return blocks;
 }
 

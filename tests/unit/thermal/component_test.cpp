@@ -107,6 +107,18 @@ TEST(Thermal, NotANumberStopsAllRanks) {
   EXPECT_NE(message.find("temperature of node"), std::string::npos) << message;
 }
 
+TEST(Thermal, SurroundingsThatGetColderThanNothingStopAllRanks) {
+  ThermalOptions options = plain();
+  options.stepper = ThermalStepper::backward_euler, options.fixed_step = 1;
+  options.radiation = {{"x_min", 0.5, TimeFunction::table({{0, 2}, {4, -2}})}};
+  Thermal thermal("heat", distributed(cube(2)), options);
+  thermal.initialize();
+  thermal.advance(1), thermal.advance(1);
+  std::string message;
+  EXPECT_EQ(code_of([&] { thermal.advance(1); }, message), ExitCode::usage);
+  EXPECT_NE(message.find("have -1 K"), std::string::npos) << message;
+}
+
 TEST(Thermal, TooFewIterationsAreReported) {
   ThermalOptions options = all_loads(ThermalStepper::backward_euler);
   options.max_iterations = 2;

@@ -17,7 +17,7 @@ Read read(const std::string& text) {
   mesh.source = "bar.msh";
   mesh.blocks = {{"bar", 1, 10, ElementKind::tet4}, {"foot", 2, 5, ElementKind::hex8}};
   mesh.node_sets = {{"top", 1, 3}, {"bottom", 2, 3}};
-  mesh.side_sets = {{"skin", 1, 9}};
+  mesh.side_sets = {{"skin", 1, 9}, {"nothing", 2, 0}};
   MaterialDescription copper{"copper", 8960, {}, {}, ThermalProperties{386, 383, 300, 0.9}, {}};
   MaterialDescription wood{"wood", 500, {}, {}, {}, {}};
   Read result;
@@ -126,6 +126,11 @@ TEST(ThermalScene, RefusesKeysThatTheStepperDoesNotLookAt) {
   for (const std::string key : {"tolerance: 1e-6", "max_iterations: 7", "preconditioner: jacobi"})
     expect_refused(copper + "solver: {" + key + "}\n", "nothing is solved for");
   EXPECT_FALSE(read("mesh: fine\n" + copper + "time_step: {fixed: 1 s, scale: 0.5}\n").diagnostics.any());
+}
+
+TEST(ThermalScene, RefusesAnEmptySet) {
+  expect_refused("material: copper\nfluxes: [{side_set: nothing, flux: 1}]\n",
+                 "side set 'nothing' of the mesh bar.msh is empty");
 }
 
 TEST(ThermalScene, RefusesToRadiateToLessThanNothing) {
