@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "components/mechanics/load_scene.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
+#include <cmath>
 
 namespace tenon {
 namespace {
@@ -81,7 +84,14 @@ Connector connector(const Value& item, Connector::Kind kind, const SceneReader& 
   if (item.has("nodes")) {
     const std::vector<double> nodes = item.reals("nodes");
     if (nodes.size() != 2) reader.diagnostics.error(item.where("nodes"), "nodes: expected two ids of nodes");
-    for (std::size_t i = 0; i < 2 && i < nodes.size(); ++i) c.node_labels[i] = static_cast<std::int64_t>(nodes[i]);
+    for (std::size_t i = 0; i < 2 && i < nodes.size(); ++i) {
+      constexpr double most = 9007199254740992;  // 2^53: doubles beyond are all whole
+      if (nodes[i] != std::floor(nodes[i]) || std::abs(nodes[i]) >= most)
+        reader.diagnostics.error(item.where("nodes"),
+                                 fmt::format("nodes: {} is not the id of a node; expected whole numbers", nodes[i]));
+      else
+        c.node_labels[i] = static_cast<std::int64_t>(nodes[i]);
+    }
   }
   if (item.has("from") != item.has("to"))
     reader.diagnostics.error(item.where(), "from and to belong together; expected both or none");

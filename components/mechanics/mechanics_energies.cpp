@@ -64,6 +64,7 @@ void Mechanics::energies(std::vector<EnergyTerm>& terms) {
   for (const Loads::Row& row : loads_->rows()) {
     EnergyTerm& term = terms.emplace_back(EnergyTerm{row.name, row.role, {}});
     for (const LocalIndex n : mesh_->owned_nodes) term.local.add(row.sign * row.work[static_cast<std::size_t>(n)]);
+    if (row.name == "damping_energy" && mesh_->comm.rank() == 0) term.local.add(rigid_->damped());
   }
   if (!has_plasticity) return;
   terms.push_back(std::move(plastic));

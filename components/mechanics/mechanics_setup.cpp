@@ -27,6 +27,10 @@ void Mechanics::make_groups() {
     const std::optional<ThermalProperties>& thermal = found->material.thermal;
     for (const RigidBody& body : options_.loads.rigid_bodies)
       group.rigid = group.rigid || std::ranges::find(body.blocks, block.name) != body.blocks.end();
+    if (group.rigid && group.has_rotations() && found->shell.reference != ShellSection::Reference::middle)
+      throw Error(ExitCode::usage, fmt::format("{}: block '{}' of a rigid body has shells whose nodes are not on their "
+                                               "middle surface, where its weight would act; expected reference: middle",
+                                               name(), block.name));
     if (options_.heat == HeatMode::exported) group.heat_given.resize(group.mass.size());
     if (options_.heat == HeatMode::adiabatic && thermal)
       group.heating = thermal->taylor_quinney / thermal->specific_heat;
@@ -89,8 +93,15 @@ void Mechanics::set_constraints() {
   const LoadOptions& options = options_.loads;
   ties_ = std::make_unique<Ties>(*mesh_, options.ties);
   if (!ties_->empty()) ties_->move_mass(nodes_);
-  rigid_ = std::make_unique<RigidBodies>(*mesh_, options.rigid_bodies, groups_, nodes_);
+  rigid_ = std::make_unique<RigidBodies>(*mesh_, options.rigid_bodies, groups_, nodes_, options.damping.mass);
   refuse_misfits();
+  std::vector<bool> bound(nodes_.size());
+  for (LocalIndex n = 0; n < mesh_->nodes() && !rigid_->empty(); ++n)
+    bound[static_cast<std::size_t>(n)] = rigid_->holds(n);
+  for (const LocalIndex n : ties_->nodes()) bound[static_cast<std::size_t>(n)] = true;
+  if (const std::int64_t left_out = conditions_.leave_out_of_walls(bound); left_out > 0)
+    warnings_.push_back(
+        fmt::format("{}: rigid walls do not stop {} nodes that are tied or belong to rigid bodies", name(), left_out));
   std::vector<double> inverse_mass = nodes_.inverse_mass;
   for (const LocalIndex n : ties_->nodes()) inverse_mass[static_cast<std::size_t>(n)] = -1;  // none of their own
   rigid_->bound_inverse_mass(inverse_mass);

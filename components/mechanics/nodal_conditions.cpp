@@ -136,6 +136,41 @@ void NodalConditions::find_walls(const Mesh& mesh, const std::vector<RigidWall>&
   }
 }
 
+std::int64_t NodalConditions::leave_out_of_walls(const std::vector<bool>& bound) {
+  std::optional<Error> error;
+  std::int64_t left_out = 0;
+  std::vector<std::int64_t> kept(walls_.size());
+  std::vector<Standing> standing;
+  for (const Standing& entry : standing_) {
+    const auto n = static_cast<std::size_t>(entry.node);
+    for (std::int32_t i = entry.first_wall; i < entry.first_wall + entry.walls; ++i) {
+      const auto w = static_cast<std::size_t>(standing_walls_[static_cast<std::size_t>(i)]);
+      kept[w] += bound[n] ? 0 : 1;
+      if (bound[n] && !walls_[w].node_sets.empty() && !error)
+        error = Error(ExitCode::usage,
+                      fmt::format("{}: {} is tied or belongs to a rigid body, whose motion no wall can stop; take it "
+                                  "out of the node sets",
+                                  walls_[w].label, node_at(mesh_, entry.node)));
+    }
+    if (bound[n])
+      ++left_out;
+    else
+      standing.push_back(entry);
+  }
+  mesh_.comm.throw_if_any(error);
+  left_out = mesh_.comm.sum(left_out);
+  if (left_out == 0) return 0;
+  mesh_.comm.sum(std::span(kept));
+  for (std::size_t w = 0; w < walls_.size(); ++w)
+    if (kept[w] == 0)
+      throw Error(ExitCode::usage,
+                  fmt::format("{}: all of its nodes are tied or belong to rigid bodies, whose motion no wall can stop; "
+                              "expected a wall with other nodes (prescribe the motion of the body instead)",
+                              walls_[w].label));
+  standing_ = std::move(standing);
+  return left_out;
+}
+
 void NodalConditions::constrain(std::int32_t motion, Constrained& entry, std::optional<Error>& error) const {
   const PrescribedMotion& m = motions_[static_cast<std::size_t>(motion)];
   if (m.kind == Kind::symmetry || m.kind == Kind::wall) return add_row(m.normal, motion, entry, error);

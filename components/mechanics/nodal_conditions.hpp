@@ -22,6 +22,11 @@ class NodalConditions {
   /// or (bonded) off a wall.
   NodalConditions(const Mesh& mesh, const std::vector<PrescribedMotion>& motions, const std::vector<RigidWall>& walls);
 
+  /// Collective. Some local nodes have no velocity of their own (rigid bodies, ties): walls over every node leave them
+  /// out. Returns how many, of all ranks. Throws Error(usage) where a wall's node sets name one, or a wall is left with
+  /// no node.
+  std::int64_t leave_out_of_walls(const std::vector<bool>& bound);
+
   /// Makes velocities at the start time compatible with what stands still or has a prescribed velocity.
   void start(std::span<Vec3> velocity, double time);
   void start_spins(std::span<Vec3> spin) const { rotations_.start(spin); }

@@ -88,26 +88,56 @@ void RigidBodies::kick(NodalState& nodes, double time, double kick, double dt) {
   }
 }
 
-void RigidBodies::kick_body(Body& body, const Vec3& force, const Vec3& moment, double time, double kick, double dt) {
-  RigidState& s = body.state;
-  for (std::size_t c = 0; c < 3 && !body.options.joint; ++c) {
-    const double before = s.velocity[c], impulse = kick * force[c];
-    if (const auto& given = body.options.prescribed_velocity[c]) {
-      s.velocity[c] = (*given)(time + 0.5 * dt);
-      body.work += 0.5 * (body.inertia.mass * (s.velocity[c] - before) - impulse) * (before + s.velocity[c]);
-    } else {
-      s.velocity[c] += impulse / body.inertia.mass;
-    }
+void RigidBodies::kick_body(Body& body, const Vec3& force, const Vec3& moment, double time, double kick,
+                            double dt) const {
+  if (!body.options.joint) push(body, force, time, kick, dt);
+  turn(body, moment, time, kick, dt);
+}
+
+// From M (V+ - V-) = kick (F - alpha M (V- + V+)/2) follows (1 + c) V = V- + kick F/(2M) for the mean V, c = alpha
+// kick/2.
+void RigidBodies::push(Body& body, const Vec3& force, double time, double kick, double dt) const {
+  const double mass = body.inertia.mass, c = 0.5 * kick * damping_;
+  for (std::size_t i = 0; i < 3; ++i) {
+    double& v = body.state.velocity[i];
+    const double before = v, impulse = kick * force[i];
+    const auto& given = body.options.prescribed_velocity[i];
+    if (given)
+      v = (*given)(time + 0.5 * dt);
+    else if (c == 0)
+      v += impulse / mass;
+    else
+      v = (2 * before + impulse / mass) / (1 + c) - before;
+    const double mean = 0.5 * (before + v), lost = 2 * c * mass * mean;  // kg m/s
+    body.damped += lost * mean;
+    if (given) body.work += (mass * (v - before) - impulse + lost) * mean;
   }
-  if (body.options.rotation == Rotation::free) s.momentum = s.momentum + kick * moment;
+}
+
+void RigidBodies::turn(Body& body, const Vec3& moment, double time, double kick, double dt) const {
+  const double c = 0.5 * kick * damping_;
+  if (body.options.rotation == Rotation::free) {
+    Vec3& momentum = body.state.momentum;
+    if (c == 0) {
+      momentum = momentum + kick * moment;
+      return;
+    }
+    const Vec3 before = momentum, rate = spin(body);
+    momentum = (1 / (1 + c)) * (2.0 * before + kick * moment) - before;
+    body.damped += 2 * c * dot(0.5 * (before + momentum), 0.5 * (rate + spin(body)));
+  }
   if (!has_axis(body.options)) return;
   const double before = body.rate, impulse = kick * dot(moment, body.options.axis);
-  if (body.options.rotation == Rotation::hinge) {
+  const bool prescribed = body.options.rotation == Rotation::prescribed;
+  if (prescribed)
+    body.rate = (body.options.angle(time + dt) - body.state.angle) / dt;
+  else if (c == 0)
     body.rate += impulse / body.axial_inertia;
-  } else {
-    body.rate = (body.options.angle(time + dt) - s.angle) / dt;
-    body.work += 0.5 * (body.axial_inertia * (body.rate - before) - impulse) * (before + body.rate);
-  }
+  else
+    body.rate = (2 * before + impulse / body.axial_inertia) / (1 + c) - before;
+  const double mean = 0.5 * (before + body.rate), lost = 2 * c * body.axial_inertia * mean;
+  body.damped += lost * mean;
+  if (prescribed) body.work += (body.axial_inertia * (body.rate - before) - impulse + lost) * mean;
 }
 
 void RigidBodies::move(NodalState& nodes, double dt) {
@@ -145,6 +175,12 @@ double RigidBodies::work() const {
   return sum;
 }
 
+double RigidBodies::damped() const {
+  double sum = 0;
+  for (const Body& body : bodies_) sum += body.damped;
+  return sum;
+}
+
 bool RigidBodies::has_prescribed() const {
   return std::ranges::any_of(bodies_, [](const Body& body) {
     return body.options.rotation == Rotation::prescribed ||
@@ -154,7 +190,7 @@ bool RigidBodies::has_prescribed() const {
 
 std::vector<double*> RigidBodies::numbers(Body& body) {
   RigidState& s = body.state;
-  std::vector<double*> all{&s.angle, &body.rate, &body.work};
+  std::vector<double*> all{&s.angle, &body.rate, &body.work, &body.damped};
   for (Vec3* v : {&s.pivot, &s.velocity, &s.momentum})
     for (double& x : *v) all.push_back(&x);
   for (double& x : s.orientation) all.push_back(&x);

@@ -15,11 +15,15 @@ namespace tenon {
 /// A step: velocity and angular momentum are kicked at the present position, so that the change of kinetic energy is
 /// exactly the work dt F . (v- + v+)/2 of the nodal forces; then the body moves freely, at constant energy. The
 /// velocities that nodes show between steps are the chords (x(n+1) - x(n))/dt, so that they arrive exactly.
+///
+/// Mass-proportional damping, -alpha dm v on every part of a body, is -alpha M V and -alpha L: implicit, with the means
+/// of before and after the kick, as on nodes; what it takes is booked per body.
 class RigidBodies {
  public:
   /// Collective. Takes the mass of its nodes out of the state. Throws Error(usage) for unknown blocks and nodes in two
-  /// bodies.
-  RigidBodies(const Mesh& mesh, const std::vector<RigidBody>& bodies, const ElementGroups& groups, NodalState& nodes);
+  /// bodies. `damping`: alpha, 1/s.
+  RigidBodies(const Mesh& mesh, const std::vector<RigidBody>& bodies, const ElementGroups& groups, NodalState& nodes,
+              double damping);
 
   bool empty() const { return bodies_.empty(); }
   /// Nodes of rigid blocks.
@@ -41,7 +45,8 @@ class RigidBodies {
 
   /// J, the same on every rank.
   double kinetic_energy() const;
-  double work() const;  ///< supplied by what prescribes motions
+  double work() const;    ///< supplied by what prescribes motions
+  double damped() const;  ///< taken by damping
   bool has_prescribed() const;
 
   std::size_t size() const { return bodies_.size(); }
@@ -62,6 +67,7 @@ class RigidBodies {
     double axial_inertia = 0;  ///< about the axis, kg m^2
     double rate = 0;           ///< about the axis, rad/s
     double work = 0;           ///< of prescribed motion, J
+    double damped = 0;         ///< by damping, J
     Vec3 spin_before{};        ///< before the kick, rad/s
   };
   struct Held {
@@ -75,10 +81,13 @@ class RigidBodies {
   void for_points(const ElementGroups& groups, const NodalState& nodes, Visit visit) const;
   Vec3 spin(const Body& body) const;
   Vec3 velocity_at(const Body& body, const Vec3& place) const;
-  void kick_body(Body& body, const Vec3& force, const Vec3& moment, double time, double kick, double dt);
+  void kick_body(Body& body, const Vec3& force, const Vec3& moment, double time, double kick, double dt) const;
+  void push(Body& body, const Vec3& force, double time, double kick, double dt) const;
+  void turn(Body& body, const Vec3& moment, double time, double kick, double dt) const;
   static std::vector<double*> numbers(Body& body);
 
   const Mesh& mesh_;
+  double damping_;  // 1/s
   std::vector<Body> bodies_;
   std::vector<std::int32_t> body_of_;  // of each local node, or -1
   std::vector<Held> held_;             // owned nodes, ascending

@@ -26,13 +26,34 @@ std::array<int, 8> as_hexahedron(ElementKind kind) {
 
 using Visit = std::function<void(double, const Vec3&, std::span<const double>)>;
 
-void visit_nodes(const ElementGroup& group, LocalIndex element, std::span<const Vec3> coordinates, const Visit& visit) {
+/// The area vector x,xi x x,eta of a quadrilateral or triangle.
+Vec3 area_vector(ElementKind kind, std::span<const Vec3> corners, const Vec3& xi) {
+  std::array<Vec3, max_side_nodes> gradient{};
+  shape_gradients(kind, xi, std::span(gradient).first(corners.size()));
+  Vec3 along{}, across{};
+  for (std::size_t a = 0; a < corners.size(); ++a)
+    along = along + gradient[a][0] * corners[a], across = across + gradient[a][1] * corners[a];
+  return cross(along, across);
+}
+
+// The rules on the surface integrate the squares of places exactly where it is plane, and so do two points through the
+// thickness: m t^2/12 about the surface.
+void visit_shell(const ElementGroup& group, LocalIndex element, std::span<const Vec3> coordinates, const Visit& visit) {
+  const ElementKind kind = group.elements().kind;
   const std::span<const LocalIndex> nodes = group.elements().nodes(element);
-  const double share = value_of(group.mass, element) / static_cast<double>(nodes.size());
-  for (std::size_t a = 0; a < nodes.size(); ++a) {
-    std::array<double, max_element_nodes> shape{};
-    shape[a] = 1;
-    visit(share, coordinates[static_cast<std::size_t>(nodes[a])], std::span(shape).first(nodes.size()));
+  std::array<Vec3, max_side_nodes> all;
+  for (std::size_t a = 0; a < nodes.size(); ++a) all[a] = coordinates[static_cast<std::size_t>(nodes[a])];
+  const std::span<const Vec3> corners = std::span(all).first(nodes.size());
+  double area = 0;
+  for (const QuadraturePoint& q : quadrature(kind)) area += q.weight * norm(area_vector(kind, corners, q.xi));
+  const double density = value_of(group.mass, element) / area, out = group.thickness(element) / std::sqrt(12.0);
+  for (const QuadraturePoint& q : quadrature(kind)) {
+    std::array<double, max_side_nodes> shape{};
+    const std::span<double> values = std::span(shape).first(nodes.size());
+    shape_values(kind, q.xi, values);
+    const Vec3 normal = area_vector(kind, corners, q.xi), place = map_to_space(kind, corners, q.xi);
+    const double size = norm(normal), mass = density * q.weight * size;
+    for (const double z : {-out, out}) visit(0.5 * mass, place + (z / size) * normal, values);
   }
 }
 
@@ -41,7 +62,7 @@ void visit_nodes(const ElementGroup& group, LocalIndex element, std::span<const 
 void for_mass_points(const ElementGroup& group, LocalIndex element, std::span<const Vec3> coordinates,
                      const Visit& visit) {
   const ElementKind kind = group.elements().kind;
-  if (topology(kind).dimension == 2) return visit_nodes(group, element, coordinates, visit);
+  if (topology(kind).dimension == 2) return visit_shell(group, element, coordinates, visit);
   const std::span<const LocalIndex> nodes = group.elements().nodes(element);
   const std::array<int, 8> corner = as_hexahedron(kind);
   std::array<Vec3, 8> x;

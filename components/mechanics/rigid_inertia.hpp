@@ -8,7 +8,8 @@ namespace tenon {
 
 /// Visits points of an element with their mass so that mass, centre and moments of inertia are exact: visit(weight kg,
 /// place, shape function values of the nodes). Solids by 27 Gauss points on the hexahedron whose nodes fall together
-/// (exact for trilinear geometry); shells by their lumped nodes.
+/// (exact for trilinear geometry); shells whose middle surface holds the nodes by the rule of their surface and two
+/// points through the thickness.
 void for_mass_points(const ElementGroup& group, LocalIndex element, std::span<const Vec3> coordinates,
                      const std::function<void(double, const Vec3&, std::span<const double>)>& visit);
 

@@ -27,8 +27,9 @@ SymmetricTensor<double> as_tensor(std::span<const double> v) {
 }  // namespace
 
 RigidBodies::RigidBodies(const Mesh& mesh, const std::vector<RigidBody>& bodies, const ElementGroups& groups,
-                         NodalState& nodes)
+                         NodalState& nodes, double damping)
     : mesh_(mesh),
+      damping_(damping),
       body_of_(bodies.empty() ? 0 : nodes.size(), -1),
       sums_(6 * bodies.size()),
       totals_(6 * bodies.size()) {

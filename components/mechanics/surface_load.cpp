@@ -59,7 +59,7 @@ std::vector<LoadedSide> faces_of_sets(const Mesh& mesh, const std::vector<std::s
     const ElementBlock& block = mesh.blocks[static_cast<std::size_t>(s.block)];
     const Topology& shape = topology(block.kind);
     const auto side = static_cast<std::size_t>(s.side);
-    LoadedSide face{s.block, s.element, shape.side_nodes[side], {}};
+    LoadedSide face{s.block, s.element, s.side, shape.side_nodes[side], {}};
     if (face.nodes < 3) {
       if (!error)
         error = Error(ExitCode::usage,

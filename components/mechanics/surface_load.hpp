@@ -10,6 +10,7 @@ namespace tenon {
 /// Face of an element: three or four nodes, right-hand normal outwards.
 struct LoadedSide {
   LocalIndex block, element;
+  int side;  ///< of the element
   int nodes;
   std::array<LocalIndex, max_side_nodes> node;
 };

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <tuple>
 
 #include "components/mechanics/load.hpp"
 #include "components/mechanics/surface_load.hpp"
@@ -18,7 +19,7 @@ namespace {
 /// A face as it travels.
 struct Face {
   GlobalId element;
-  int corners;
+  int side, corners;
   std::array<GlobalId, max_side_nodes> id;
   std::array<Vec3, max_side_nodes> place;
 };
@@ -39,7 +40,7 @@ std::vector<Face> owned_faces(const Mesh& mesh, const TiedSet& set) {
     const ElementBlock& block = mesh.blocks[static_cast<std::size_t>(side.block)];
     const auto e = static_cast<std::size_t>(side.element);
     if (block.owners[e] != mesh.comm.rank()) continue;
-    Face face{block.ids[e], side.nodes, {}, {}};
+    Face face{block.ids[e], side.side, side.nodes, {}, {}};
     for (std::size_t a = 0; a < static_cast<std::size_t>(side.nodes); ++a) {
       face.id[a] = mesh.node_ids[static_cast<std::size_t>(side.node[a])];
       face.place[a] = mesh.coordinates[static_cast<std::size_t>(side.node[a])];
@@ -49,7 +50,7 @@ std::vector<Face> owned_faces(const Mesh& mesh, const TiedSet& set) {
   return faces;
 }
 
-/// The nearest face within reach; of several at one distance that of the smallest element.
+/// The nearest face within reach; of several at one distance that of the smallest element, and of that the first side.
 Ties::Record nearest_face(const DistributedSearch& search, const std::vector<Face>& faces, const Vec3& point,
                           GlobalId node, double tolerance) {
   const Face* best = nullptr;
@@ -59,8 +60,8 @@ Ties::Record nearest_face(const DistributedSearch& search, const std::vector<Fac
     const auto corners = static_cast<std::size_t>(face.corners);
     if (std::ranges::count(std::span(face.id).first(corners), node) > 0) return std::numeric_limits<double>::infinity();
     const NearestPoint found = nearest_point(kind_of(face), std::span(face.place).first(corners), point);
-    const bool better =
-        found.distance < at.distance || (found.distance == at.distance && best && face.element < best->element);
+    const bool before = best && std::tuple(face.element, face.side) < std::tuple(best->element, best->side);
+    const bool better = found.distance < at.distance || (found.distance == at.distance && before);
     if (found.distance <= tolerance && better) at = found, best = &face;
     return found.distance;
   });

@@ -13,11 +13,13 @@ Ties::Ties(const Mesh& mesh, const std::vector<TiedSet>& sets) {
   if (sets.empty()) return;
   std::vector<Record> mine;
   for (const TiedSet& set : sets) {
-    // A node that several sets name stays with the first.
-    for (const Record& record : find(mesh, set))
-      if (std::ranges::find(mine, record.node, &Record::node) == mine.end()) mine.push_back(record);
-    std::ranges::sort(mine, {}, &Record::node);
+    const std::vector<Record> found = find(mesh, set);
+    mine.insert(mine.end(), found.begin(), found.end());
   }
+  // A node that several sets name stays with the first.
+  std::ranges::stable_sort(mine, {}, &Record::node);
+  const auto again = std::ranges::unique(mine, {}, &Record::node);
+  mine.erase(again.begin(), again.end());
   count_ = mesh.comm.sum(static_cast<std::int64_t>(mine.size()));
   refuse_chains(mesh, mine);
   std::vector<GlobalId> corners;

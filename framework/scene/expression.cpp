@@ -9,6 +9,7 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <string_view>
@@ -20,7 +21,15 @@ namespace {
 
 constexpr std::size_t longest = 4000;
 
+/// Set where bessel_j met an order that is not whole: refused if an expression is written so, not a number where the
+/// order varies.
+thread_local bool fractional_order = false;
+
 double bessel_j(double order, double x) {
+  if (order != std::floor(order)) {
+    fractional_order = true;
+    return std::numeric_limits<double>::quiet_NaN();
+  }
   return ::jn(static_cast<int>(std::clamp(order, -1e6, 1e6)), x);
 }
 double step(double x) {
@@ -196,9 +205,12 @@ Expression::Expression(const std::string& text, std::vector<std::string> variabl
       parser.DefineVar(parsed->names[i], parsed->values.data() + i);
     parser.SetExpr(text);
     for (const auto& [name, place] : parser.GetUsedVar()) parsed->used.push_back(name);
+    fractional_order = false;
     // The first evaluations parse, and make the room that the later ones work in.
     parser.Eval();
     parser.Eval();
+    if (fractional_order)
+      refuse(text, text.find("bessel_j"), "the order of bessel_j is not a whole number (its first argument)");
     if (parser.GetNumResults() != 1) refuse(text, text.find(','), "a ',' outside of a function's arguments");
   } catch (const mu::Parser::exception_type& problem) {
     const auto at = static_cast<std::size_t>(std::max(problem.GetPos(), 0));

@@ -40,7 +40,7 @@ offset, but not that of a temperature. The times of a table ascend. In an expres
 where the type is "function of place" `x`, `y`, `z` are the place in the undeformed body in m. The result is in the SI unit
 of the key, or in `unit`. It has `+ - * / ^`, comparisons, `&& ||`, `condition ? a : b`, `pi` and the functions sin, cos,
 tan, asin, acos, atan, sinh, cosh, tanh, asinh, acosh, atanh, exp, ln (also as log), log10, sqrt, abs, erf, erfc, floor,
-ceil, round, step (0 below zero, 1 from zero on), sign, atan2(y, x), pow, mod, min, max (of two) and bessel_j(order, x);
+ceil, round, step (0 below zero, 1 from zero on), sign, atan2(y, x), pow, mod, min, max (of two) and bessel_j(whole order, x);
 with a comma inside it stands in quotes. The range of the key is not checked where it varies.
 
 **Tables.** A key of the type "table" holds points over something else than time, such as

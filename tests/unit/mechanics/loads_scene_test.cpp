@@ -131,6 +131,10 @@ TEST(LoadsScene, MistakesAreNamed) {
             std::string::npos);
   EXPECT_NE(complaint("springs: [{from: [0, 0, 0], stiffness: 1}]").find("from and to belong together"),
             std::string::npos);
+  EXPECT_NE(complaint("dashpots: [{nodes: [1.5, 2], coefficient: 1}]").find("1.5 is not the id of a node"),
+            std::string::npos);
+  EXPECT_NE(complaint("springs: [{nodes: [1, 1e17], stiffness: 1}]").find("is not the id of a node"),
+            std::string::npos);
   EXPECT_NE(complaint("rigid_bodies: [{blocks: bx}]").find("no block 'bx'"), std::string::npos);
   EXPECT_NE(complaint("rigid_bodies: [{blocks: box, rotation: hinge}]").find("needs an axis"), std::string::npos);
 }

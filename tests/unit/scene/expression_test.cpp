@@ -85,6 +85,10 @@ TEST(Expression, RefusalsSayWhereAndWhatWasMeant) {
   EXPECT_NE(refusal("sin(t, x)").find("too many arguments for the function 'sin'"), std::string::npos)
       << refusal("sin(t, x)");
   EXPECT_NE(refusal("atan2(t)").find("too few arguments"), std::string::npos) << refusal("atan2(t)");
+  EXPECT_EQ(refusal("2 * bessel_j(0.5, x)"),
+            "expression '2 * bessel_j(0.5, x)', position 5: the order of bessel_j is not a whole number (its first "
+            "argument)");
+  EXPECT_TRUE(std::isnan(at("bessel_j(t, 1)", 0.5)));
   EXPECT_NE(refusal("1, 2").find("','"), std::string::npos) << refusal("1, 2");
   EXPECT_NE(refusal(std::string(5000, '1')).find("at most 4000"), std::string::npos);
 }
