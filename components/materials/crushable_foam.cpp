@@ -68,6 +68,13 @@ void CrushableFoam::update(const UpdateInput& input, Batch<6>& stress, Batch<1>&
   }
 }
 
+void CrushableFoam::trial_shear(const UpdateInput& input, Batch<1>& shear) const {
+  LaneValues compaction, factor;
+  for (int l = 0; l < lanes; ++l) compaction[l] = 1 - (*input.volume_ratio).v[0][l];
+  stiffening(*this, compaction, factor);
+  for (int l = 0; l < lanes; ++l) shear.v[0][l] = factor[l] * elasticity.shear_modulus();
+}
+
 /// Looks ahead by what a step may crush, so that the step is short enough when the foam locks.
 void CrushableFoam::stiffness(const UpdateInput& input, const Batch<6>&, const Batch<1>&, Batch<2>& moduli) const {
   constexpr double ahead = 0.05;

@@ -19,6 +19,7 @@ struct CrushableFoam {
   static constexpr int state_size = 1;
   static constexpr std::array<std::string_view, 1> state_names{"crush"};
   static constexpr bool needs_volume_ratio = true;
+  static constexpr bool flows = true;
   static constexpr double lead = 1.25;
 
   Elasticity elasticity;         ///< uncrushed
@@ -27,6 +28,8 @@ struct CrushableFoam {
 
   void update(const UpdateInput& input, Batch<6>& stress, Batch<1>& state, Batch<1>& plastic_work) const;
   void stiffness(const UpdateInput& input, const Batch<6>& stress, const Batch<1>& state, Batch<2>& moduli) const;
+  /// Of the elastic trial of the last update, without looking ahead.
+  void trial_shear(const UpdateInput& input, Batch<1>& shear) const;
 };
 
 }  // namespace tenon

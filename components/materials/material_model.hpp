@@ -51,6 +51,11 @@ class MaterialModel {
   virtual void stiffness(const UpdateInput& input, const Batch<6>& stress, const Batch<1>* state,
                          Batch<2>& moduli) const = 0;
 
+  /// Whether an update can leave less stress than its elastic trial would have, stress before + 2 mu strain increment
+  /// in the deviator; `trial_shear` gives that mu of the last update (row 0, Pa).
+  virtual bool flows() const = 0;
+  virtual void trial_shear(const UpdateInput& input, Batch<1>& shear) const = 0;
+
   /// As Material::update, with the failure criterion after it.
   virtual void update(const UpdateInput& input, Batch<6>& stress, StateRows state, Batch<1>& plastic_work) const = 0;
   /// Whether there is such a law for shells: not where the stress follows from a deformation gradient or a volume that
@@ -70,6 +75,8 @@ std::shared_ptr<const MaterialModel> make_material_model(const MaterialDescripti
 ///   static constexpr std::array<int, n> rotating_tensors, rotating_vectors;                   (none)
 ///   double initial_state(int i) const;                                                       (0)
 ///   void stiffness(const UpdateInput&, const Batch<6>& stress, const StateBatch<M>&, Batch<2>& moduli) const;
+///   static constexpr bool flows;                               (whether state 0 is the equivalent plastic strain)
+///   void trial_shear(const UpdateInput&, Batch<1>& shear) const;                          (the one of `elasticity`)
 ///   void update_plane_stress(const UpdateInput&, Batch<6>&, StateBatch<M>&, Batch<1>& work, Batch<1>& thickness)
 ///   const;
 template <Material M>
@@ -93,6 +100,16 @@ class MaterialModelOf final : public MaterialModel {
     return false;
   }
   int damage() const override { return failure_ ? M::state_size : -1; }
+  bool flows() const override {
+    if constexpr (requires { M::flows; }) return M::flows;
+    return plastic();
+  }
+  void trial_shear(const UpdateInput& input, Batch<1>& shear) const override {
+    if constexpr (requires { material_.trial_shear(input, shear); })
+      material_.trial_shear(input, shear);
+    else
+      for (int l = 0; l < lanes; ++l) shear[0][l] = elasticity_.shear_modulus();
+  }
   bool needs_deformation_gradient() const override {
     if constexpr (requires { M::needs_deformation_gradient; }) return M::needs_deformation_gradient;
     return false;

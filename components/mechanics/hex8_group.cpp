@@ -31,7 +31,8 @@ Hex8Group<H>::Hex8Group(std::size_t block, const ElementBlock& elements, std::sp
       viscosity_used_(model().needs_added_heat() ? batches() : 0),
       moduli_(model().variable_stiffness() ? batches() : 0),
       needs_measures_(model().needs_deformation_gradient() || model().needs_volume_ratio() ||
-                      model().needs_added_heat()) {
+                      model().needs_added_heat()),
+      relaxes_(H::uses_relaxation && model().flows()) {
   const Elasticity& elasticity = model().elasticity();
   for (int l = 0; l < lanes; ++l)
     constant_moduli_[0][l] = elasticity.lame_lambda(), constant_moduli_[1][l] = elasticity.shear_modulus();
@@ -100,14 +101,20 @@ void Hex8Group<H>::update_material(std::size_t b, const NodeArrays& nodes, const
     input.deformation_gradient = &gradient, input.volume_ratio = &volume_ratio, input.added_heat = &added_heat;
   }
   Batch<6> before;
-  if (H::uses_relaxation || !dead.empty()) before = points.stress(b, 0);
+  if (relaxes_ || !dead.empty()) before = points.stress(b, 0);
   model().update(input, points.stress(b, 0), points.history(b, 0), work.plastic_work_density);
   if (!moduli_.empty()) model().stiffness(input, points.stress(b, 0), points.history(b, 0), moduli_[b]);
-  if constexpr (H::uses_relaxation)
-    relaxation_of(before, strain_increment, points.stress(b, 0), moduli_.empty() ? constant_moduli_ : moduli_[b],
+  if (relaxes_) {
+    Batch<1> trial;
+    if (!moduli_.empty()) model().trial_shear(input, trial);
+    relaxation_of(before, strain_increment, points.stress(b, 0), moduli_.empty() ? constant_moduli_.v[1] : trial.v[0],
                   work.relaxation);
+  }
   if (dead.empty()) return;
-  Batch<1> volume;
+  Batch<1> volume, failed;
+  points.failed(b, failed);
+  for (int l = 0; l < lanes; ++l)  // what dies in this step does no more work
+    for (int i = 0; i < 6 && failed[0][l] != 0; ++i) points.stress(b, 0)[i][l] = 0;
   for (int h = 0; h < halves; ++h) store(volume[0] + h * pack_width, (1.0 / 192.0) * mean_gradient(x[h]).volume_192);
   add_stress_power(before, points.stress(b, 0), strain_increment, volume, dead[b], internal_energy[b]);
 }
@@ -154,7 +161,7 @@ template <HourglassForm H>
   HourglassBatch none;
   HourglassBatch& hourglass = H::state_size > 0 ? hourglass_state_[b] : none;
   Pack relaxation = broadcast<Pack>(1.0);
-  if (H::uses_relaxation && dt > 0) relaxation = load(work.relaxation[0] + lane);
+  if (relaxes_ && dt > 0) relaxation = load(work.relaxation[0] + lane);
   const Moduli<Pack> moduli{load(work.moduli[0] + lane), load(work.moduli[1] + lane)};
   const ElementForces<Pack> f =
       element_forces(x, v, load_tensor(points.stress(b, 0), lane), reference(b, lane, relaxation), moduli, parameters_,
@@ -252,6 +259,11 @@ std::unique_ptr<ElementGroup> make_hex8_group(std::size_t block, const ElementBl
   };
   switch (hourglass.form) {
     case HourglassOptions::Form::physical:
+      // Its bending stiffness would be that of the isotropic bound of the moduli, many times too great.
+      if (std::holds_alternative<OrthotropicParameters>(material.whole_law))
+        throw Error(ExitCode::usage, "material '" + material.name +
+                                         "' is orthotropic, and the physical hourglass form knows isotropic bending "
+                                         "only; use formulation: full, or another hourglass form");
       return with(PhysicalHourglass{});
     case HourglassOptions::Form::stiffness:
       return with(StiffnessHourglass{hourglass.coefficient});

@@ -59,7 +59,7 @@ class Hex8Group final : public ElementGroup {
   ElementValues viscosity_used_;  // J, that the material has received; only if it asks for it
   std::vector<Batch<2>> moduli_;  // of the last update; only if they vary
   Batch<2> constant_moduli_;
-  bool needs_measures_;
+  bool needs_measures_, relaxes_;
 };
 
 std::unique_ptr<ElementGroup> make_hex8_group(std::size_t block, const ElementBlock& elements,

@@ -14,7 +14,9 @@ namespace tenon {
 /// out, as are the shears of the mode xi eta zeta; its normal strains get Young's modulus.
 ///
 /// Under plastic flow the stresses relax as the return mapping shrinks the trial deviator at the element's point: a
-/// small deviation from the mean stress then flows as the mean does, transverse to it exactly so.
+/// small deviation from the mean stress then flows as the mean does, transverse to it exactly so. Materials that do not
+/// flow keep it all. Where moduli vary (rubber under strain, locking foam) it takes those that bound the stable step,
+/// which are never too soft; orthotropic ones, whose bound is far off in bending, are refused.
 struct PhysicalHourglass {
   static constexpr int state_size = 12;
   static constexpr bool uses_relaxation = true;

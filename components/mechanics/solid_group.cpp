@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "components/materials/lane_math.hpp"
 #include "components/mechanics/stress_power.hpp"
 
 namespace tenon {
@@ -22,11 +23,14 @@ SolidGroup<N, P>::SolidGroup(std::size_t block, const ElementBlock& elements, st
       viscosity_used_(model().needs_added_heat() ? batches() : 0),
       moduli_(model().variable_stiffness() ? batches() : 0),
       nodal_(averaged ? coordinates.size() : 0),
-      nodal_reference_(nodal_.size()) {
+      volume_ratio_(averaged && needs_measures_ ? batches() : 0),
+      expansion_(averaged && !dead.empty() ? batches() : 0),
+      mean_(expansion_.size()) {
   const Elasticity& elasticity = model().elasticity();
   for (int l = 0; l < lanes; ++l)
     constant_moduli_[0][l] = elasticity.lame_lambda(), constant_moduli_[1][l] = elasticity.shear_modulus();
   for (Batch<2>& moduli : moduli_) moduli = constant_moduli_;
+  for (Batch<1>& ratio : volume_ratio_) std::fill(ratio[0], ratio[0] + lanes, 1.0);
   for (LocalIndex e = 0; e < static_cast<LocalIndex>(batches()) * lanes; ++e) {
     for (int i = 0; i < N; ++i) connectivity_[static_cast<std::size_t>(e / lanes)].node[i][e % lanes] = node(e, i);
     value_of(reference_volume_, e) = volume(std::min(e, size() - 1), coordinates);
@@ -61,7 +65,7 @@ void SolidGroup<N, P>::deform(std::size_t b, int lane, const NodeArrays& nodes, 
   const Pack back = broadcast<Pack>(0.5 * dt);
   for (int a = 0; a < N; ++a) x.at[a] = x.at[a] - back * v.at[a];
   const Geometry g = solid_geometry<Pack, N, P>(table_, x);
-  const Pack rate = averaged_ ? nodal_mean(b, lane, 1) / dt : divergence(v, g.mean);
+  const Pack rate = averaged_ ? nodal_mean(b, lane) / dt : divergence(v, g.mean);
   for (int p = 0; p < P; ++p) {
     const StepDeformation<Pack> step = step_deformation(with_trace(gradient_of(v, g.gradient[p]), rate), dt);
     store_tensor(step.strain_increment, work.strain[p], lane);
@@ -72,12 +76,18 @@ void SolidGroup<N, P>::deform(std::size_t b, int lane, const NodeArrays& nodes, 
   store(temperature_used[b][0] + lane, now);
 }
 
-// Deformation gradients with the volume ratio of the element (or of the nodes) at every point.
+// Deformation gradients with the volume ratio of the element, or that by averaged strains, at every point.
 template <int N, int P>
 void SolidGroup<N, P>::measure(std::size_t b, int lane, const NodeArrays& nodes, Work& work) {
   const Vectors x = gather<N>(nodes.position, connectivity_[b], lane);
   const Pack inverse_volume = 1.0 / load(reference_volume_[b][0] + lane);
-  const Pack ratio = averaged_ ? nodal_mean(b, lane, 2) : solid_geometry<Pack, N, P>(table_, x).volume * inverse_volume;
+  Pack ratio = solid_geometry<Pack, N, P>(table_, x).volume * inverse_volume;
+  if (averaged_) {
+    const Pack strain = nodal_mean(b, lane);
+    ratio = load(volume_ratio_[b][0] + lane);
+    for (int l = 0; l < pack_width; ++l) ratio[l] *= exp_of(strain[l]);
+    store(volume_ratio_[b][0] + lane, ratio);
+  }
   store(work.volume_ratio[0] + lane, ratio);
   if (nodes.reference) {
     const Vectors start = gather<N>(nodes.reference, connectivity_[b], lane);
@@ -112,24 +122,43 @@ void SolidGroup<N, P>::update(std::size_t b, const NodeArrays& nodes, double dt)
     if (needs_measures_)
       input.deformation_gradient = &work.gradient[p], input.volume_ratio = &work.volume_ratio,
       input.added_heat = &work.added_heat;
-    Batch<6> before;
-    if (!dead.empty()) before = points.stress(b, p);
+    if (!dead.empty()) work.before[p] = points.stress(b, p);
     model().update(input, points.stress(b, p), points.history(b, p), work.plastic_work);
     for (int l = 0; l < lanes; ++l) done[0][l] += work.plastic_work[0][l] * shares[p][0][l];
-    if (!dead.empty())
-      add_stress_power(before, points.stress(b, p), work.strain[p], shares[p], dead[b], internal_energy[b]);
     if (moduli_.empty()) continue;
     Batch<2> now;
     model().stiffness(input, points.stress(b, p), points.history(b, p), now);
     for (int i = 0; i < 2; ++i)
       for (int l = 0; l < lanes; ++l) moduli_[b][i][l] = p == 0 ? now[i][l] : std::max(moduli_[b][i][l], now[i][l]);
   }
-  if (!model().plastic()) return;
-  for (int l = 0; l < lanes; ++l) {
-    const double alive = dead.empty() || dead[b][0][l] == 0 ? 1 : 0;
-    plastic_work[b][0][l] += alive * done[0][l];
-    temperature[b][0][l] += alive * (heating * done[0][l] / mass[b][0][l]);
+  for (int l = 0; l < lanes && model().plastic(); ++l) {
+    if (!dead.empty() && dead[b][0][l] != 0) continue;
+    plastic_work[b][0][l] += done[0][l];
+    temperature[b][0][l] += heating * done[0][l] / mass[b][0][l];
   }
+  if (!dead.empty()) bury(b, work, shares);
+}
+
+// Elements that have failed carry nothing from this step on: they die before their mean stress could reach a node, so
+// that forces follow from the state alone, as a restart needs it. The work of the stress is that of the forces: of
+// averaged elements that of the deviator only.
+template <int N, int P>
+void SolidGroup<N, P>::bury(std::size_t b, const Work& work, const Batch<1>* shares) {
+  Batch<1> failed;
+  points.failed(b, failed);
+  for (int p = 0; p < P; ++p) {
+    Batch<6>& now = points.stress(b, p);
+    for (int l = 0; l < lanes; ++l)
+      for (int i = 0; i < 6 && (failed[0][l] != 0 || dead[b][0][l] != 0); ++i) now[i][l] = 0;
+    if (averaged_)
+      add_deviatoric_power(work.before[p], now, work.strain[p], shares[p], dead[b], internal_energy[b]);
+    else
+      add_stress_power(work.before[p], now, work.strain[p], shares[p], dead[b], internal_energy[b]);
+  }
+  for (int l = 0; l < lanes && averaged_; ++l)
+    if (dead[b][0][l] == 0) internal_energy[b][0][l] += 0.5 * mean_[b][0][l] * expansion_[b][0][l];
+  for (int l = 0; l < lanes; ++l)
+    if (failed[0][l] != 0) dead[b][0][l] = 1;
 }
 
 // omega^2 <= N/m (kappa V |mean gradient|^2 + 2 mu sum over points of their share of the greatest eigenvalue of G):
@@ -158,7 +187,13 @@ void SolidGroup<N, P>::resist(std::size_t b, int lane, const NodeArrays& nodes, 
     shear_sum = shear_sum + g.share[p] * eigenvalue;
     greatest = greater_of(greatest, eigenvalue);
   }
-  mean = averaged_ ? nodal_mean(b, lane, 1) : mean / g.volume;
+  mean = averaged_ ? nodal_mean(b, lane) : mean / g.volume;
+  if (!mean_.empty()) {
+    const Pack living = load(dead[b][0] + lane) == 0.0 ? mean : Pack{};
+    double* energy = internal_energy[b][0] + lane;
+    if (dt > 0) store(energy, load(energy) + 0.5 * living * load(expansion_[b][0] + lane));
+    store(mean_[b][0] + lane, living);
+  }
   Pack squares{};
   for (int a = 0; a < N; ++a) squares = squares + dot(g.mean[a], g.mean[a]);
 
@@ -192,16 +227,10 @@ void SolidGroup<N, P>::resist(std::size_t b, int lane, const NodeArrays& nodes, 
 }
 
 template <int N, int P>
-void SolidGroup<N, P>::bury(std::size_t b, double (*rows)[N][pack_width], Batch<1>& step) {
-  Batch<1> failed;
-  points.failed(b, failed);
+void SolidGroup<N, P>::silence(std::size_t b, double (*rows)[N][pack_width], Batch<1>& step) const {
   for (int l = 0; l < lanes; ++l) {
-    if (failed[0][l] == 0) continue;
-    dead[b][0][l] = 1;
-    for (int p = 0; p < P; ++p)
-      for (int i = 0; i < 6; ++i) points.stress(b, p)[i][l] = 0;
-    for (auto& row : rows[l])
-      for (double& f : row) f = 0;
+    if (dead[b][0][l] == 0) continue;
+    for (int i = 0; i < N; ++i) std::fill(rows[l][i], rows[l][i] + pack_width, 0.0);
     step[0][l] = std::numeric_limits<double>::infinity();
   }
 }
@@ -214,7 +243,7 @@ GroupStep SolidGroup<N, P>::advance(const NodeArrays& nodes, double dt) {
     alignas(64) double rows[lanes][N][pack_width];
     Batch<1> step, wave_step;
     for (int h = 0; h < halves; ++h) resist(b, h * pack_width, nodes, dt, rows + h * pack_width, step, wave_step);
-    if (!dead.empty()) bury(b, rows, step);
+    if (!dead.empty()) silence(b, rows, step);
     if (!steps.empty()) steps[b] = step;
     if (follows()) follow(b, step, wave_step, least.shrink);
     for (int l = 0; l < count(b); ++l)
@@ -288,7 +317,6 @@ template <int N, int P>
 void SolidGroup<N, P>::prepare(int pass, const NodeArrays& nodes, double dt) {
   if (pass == 0) return sum_dilatation(nodes, dt);
   for (std::size_t b = 0; b < batches() && dt > 0; ++b) update(b, nodes, dt);
-  for (std::size_t n = 0; n < nodal_.size() && dt == 0; ++n) nodal_reference_[n] = nodal_[n][0];
   sum_pressure(nodes);
 }
 
@@ -306,22 +334,20 @@ void SolidGroup<N, P>::add_to_nodes(std::size_t b, const Batch<3>& values) {
 
 template <int N, int P>
 void SolidGroup<N, P>::sum_dilatation(const NodeArrays& nodes, double dt) {
+  if (dt == 0) return;
   std::fill(nodal_.begin(), nodal_.end(), Vec3{});
   for (std::size_t b = 0; b < batches(); ++b) {
     Batch<3> values{};
     for (int lane = 0; lane < lanes; lane += pack_width) {
-      if (dt == 0) {
-        store(values[0] + lane, load(reference_volume_[b][0] + lane));
-        continue;
-      }
       Vectors x = gather<N>(nodes.position, connectivity_[b], lane);
-      store(values[2] + lane, solid_geometry<Pack, N, P>(table_, x).volume);
       const Vectors v = gather<N>(nodes.velocity, connectivity_[b], lane);
       const Pack back = broadcast<Pack>(0.5 * dt);
       for (int a = 0; a < N; ++a) x.at[a] = x.at[a] - back * v.at[a];
       const Geometry g = solid_geometry<Pack, N, P>(table_, x);
+      const Pack expansion = g.volume * (dt * divergence(v, g.mean));
       store(values[0] + lane, g.volume);
-      store(values[1] + lane, g.volume * (dt * divergence(v, g.mean)));
+      store(values[1] + lane, expansion);
+      if (!expansion_.empty()) store(expansion_[b][0] + lane, expansion);
     }
     add_to_nodes(b, values);
   }
@@ -344,15 +370,15 @@ void SolidGroup<N, P>::sum_pressure(const NodeArrays& nodes) {
   }
 }
 
-// Mean over the corners of four elements of the nodal average: of value 1 over value 0, or (2) of the volume over the
-// undeformed one.
+// Mean over the corners of four elements of the nodal average: value 1 over value 0. A dead element may have nodes that
+// no living one has.
 template <int N, int P>
-Pack SolidGroup<N, P>::nodal_mean(std::size_t b, int lane, std::size_t value) const {
+Pack SolidGroup<N, P>::nodal_mean(std::size_t b, int lane) const {
   Pack sum{};
   for (int l = 0; l < pack_width; ++l)
     for (int i = 0; i < N; ++i) {
-      const auto n = static_cast<std::size_t>(connectivity_[b].node[i][lane + l]);
-      sum[l] += nodal_[n][value] / (value == 2 ? nodal_reference_[n] : nodal_[n][0]);
+      const Vec3& n = nodal_[static_cast<std::size_t>(connectivity_[b].node[i][lane + l])];
+      sum[l] += n[0] > 0 ? n[1] / n[0] : 0.0;
     }
   return (1.0 / N) * sum;
 }
@@ -361,6 +387,7 @@ template <int N, int P>
 std::vector<StateArray> SolidGroup<N, P>::state() {
   std::vector<StateArray> arrays = ElementGroup::state();
   if (!viscosity_used_.empty()) arrays.push_back({"viscosity_used", 1, viscosity_used_.data()});
+  if (!volume_ratio_.empty()) arrays.push_back({"volume_ratio", 1, volume_ratio_.data()});
   if (!moduli_.empty()) arrays.push_back({"moduli", 2, reinterpret_cast<Batch<1>*>(moduli_.data())});
   return arrays;
 }
@@ -370,7 +397,8 @@ std::int64_t SolidGroup<N, P>::memory() const {
   return ElementGroup::memory() +
          static_cast<std::int64_t>(connectivity_.size() * (sizeof(SolidConnectivity<N>) + sizeof(Batch<1>)) +
                                    viscosity_used_.size() * sizeof(Batch<1>) + moduli_.size() * sizeof(Batch<2>) +
-                                   nodal_.size() * sizeof(Vec3) + nodal_reference_.size() * sizeof(double));
+                                   nodal_.size() * sizeof(Vec3) +
+                                   (volume_ratio_.size() + 2 * mean_.size()) * sizeof(Batch<1>));
 }
 
 std::unique_ptr<ElementGroup> make_solid_group(std::size_t block, const ElementBlock& elements,

@@ -38,7 +38,7 @@ class SolidGroup final : public ElementGroup {
 
   /// One batch in the course of an update.
   struct Work {
-    Batch<6> strain[P];
+    Batch<6> strain[P], before[P];
     Batch<1> temperature_increment, volume_ratio, added_heat, plastic_work;
     Batch<9> gradient[P];
   };
@@ -48,13 +48,14 @@ class SolidGroup final : public ElementGroup {
   void update(std::size_t b, const NodeArrays& nodes, double dt);
   void resist(std::size_t b, int lane, const NodeArrays& nodes, double dt, double (*rows)[N][pack_width],
               Batch<1>& step, Batch<1>& wave_step);
-  void bury(std::size_t b, double (*rows)[N][pack_width], Batch<1>& step);
+  void bury(std::size_t b, const Work& work, const Batch<1>* shares);
+  void silence(std::size_t b, double (*rows)[N][pack_width], Batch<1>& step) const;
   void store_rows(const Vectors& f, double (*rows)[N][pack_width]) const;
   void scatter(const double (*rows)[N][pack_width], std::size_t b, double* force) const;
   // Of averaged elements.
   void sum_dilatation(const NodeArrays& nodes, double dt);
   void sum_pressure(const NodeArrays& nodes);
-  Pack nodal_mean(std::size_t b, int lane, std::size_t value) const;
+  Pack nodal_mean(std::size_t b, int lane) const;
   void add_to_nodes(std::size_t b, const Batch<3>& values);
 
   SolidTable<N, P> table_;
@@ -65,10 +66,14 @@ class SolidGroup final : public ElementGroup {
   ElementValues viscosity_used_;    // J, that the material has received; only if it asks for it
   std::vector<Batch<2>> moduli_;    // of the last update; only if they vary
   Batch<2> constant_moduli_;
-  // Nodal sums of averaged elements over quarters of elements: first {volume at mid-step, that times the volume strain,
-  // volume}, then {volume, that times the mean stress, 0}; without a step first {undeformed volume, 0, 0}.
+  // Of averaged elements. Nodal sums over quarters of living elements: first {volume at mid-step, that times the volume
+  // strain, 0}, then {volume, that times the mean stress, 0}.
   std::vector<Vec3> nodal_;
-  std::vector<double> nodal_reference_;  // m^3
+  // V/V0 by the averaged volume strains since the start, if the material asks for it: what did the work on it, and what
+  // the death of a neighbour leaves as it is.
+  ElementValues volume_ratio_;
+  // Where the material can fail: change of the element's own volume in the step, m^3, and the averaged mean stress, Pa.
+  ElementValues expansion_, mean_;
 };
 
 /// Chooses N and P by the kind of the elements, not quad4 or tri3.
