@@ -88,6 +88,8 @@ Containers containers_of(const Mesh& mesh, std::span<const Vec3> coordinates, do
   std::optional<Error> error;
   std::int64_t flat = 0;
   ExactSum sizes;
+  containers.elements.reserve(static_cast<std::size_t>(mesh.elements()));
+  containers.boxes.reserve(static_cast<std::size_t>(mesh.elements()));
   for_each_element(mesh, [&](LocalIndex item, const ElementBlock& block, LocalIndex e) {
     if (block.owners[static_cast<std::size_t>(e)] != mesh.comm.rank()) return;
     ElementPacket packet = packet_of(block, e, item, coordinates, mesh.comm.rank());

@@ -133,19 +133,19 @@ Misses count_misses(const Communicator& comm, const Sought& sought) {
 void GridTransfer::Impl::build() {
   Sought sought;
   const PlaceRules rules{options.tolerance, options.outside == OutsidePolicy::extrapolate};
-  Rows rows;
   if (method == Method::interpolate) {
-    rows =
-        interpolation_rows(source.side(), target.side(), rules, options.outside == OutsidePolicy::value, name, sought);
+    map = interpolation_map(source.side(), target.side(), rules, options.outside == OutsidePolicy::value,
+                            options.outside_value, name, sought);
+    misses = count_misses(comm(), sought);
+    refuse_misses(misses, options, name);
   } else {
-    rows = conservation_rows(source.side(), target.side(), rules, field.kind == FieldKind::density, name, sought);
+    Rows rows = conservation_rows(source.side(), target.side(), rules, field.kind == FieldKind::density, name, sought);
+    misses = count_misses(comm(), sought);
+    refuse_misses(misses, options, name);
+    sought = {};
+    rows = share_rows(comm(), target.items(), std::move(rows), name + ".rows");
+    map = RowMap(comm(), rows, name);
   }
-  misses = count_misses(comm(), sought);
-  refuse_misses(misses, options, name);
-  sought = {};
-  rows = share_rows(comm(), target.items(), std::move(rows), name + ".rows");
-  const bool interpolating = method == Method::interpolate;
-  map = RowMap(comm(), rows, interpolating, interpolating ? options.outside_value : 0.0, name);
   source.volumes.clear();
   target.volumes.clear();
   ++built;

@@ -10,6 +10,7 @@
 #include <numeric>
 
 #include "framework/search/distributed_search.hpp"
+#include "transfer/place_many.hpp"
 #include "transfer/slot_table.hpp"
 
 namespace tenon::transfer {
@@ -18,40 +19,15 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// Interleaved bits of the place within a box, 21 per direction.
-std::uint64_t morton_code(const Vec3& point, const Box& box) {
-  std::uint64_t code = 0;
-  for (std::size_t c = 0; c < 3; ++c) {
-    const double width = box.high[c] - box.low[c];
-    const double part = width > 0 ? (point[c] - box.low[c]) / width : 0.0;
-    auto bits = static_cast<std::uint64_t>(std::clamp(part, 0.0, 1.0) * 2097151.0);
-    bits = (bits | bits << 32) & 0x1f00000000ffff;
-    bits = (bits | bits << 16) & 0x1f0000ff0000ff;
-    bits = (bits | bits << 8) & 0x100f00f00f00f00f;
-    bits = (bits | bits << 4) & 0x10c30c30c30c30c3;
-    bits = (bits | bits << 2) & 0x1249249249249249;
-    code |= bits << c;
-  }
-  return code;
-}
-
-/// Places of the points in an order in which neighbours in space follow each other, so that their elements are in
-/// cache.
-std::vector<LocalIndex> spatial_order(std::span<const Vec3> points) {
-  Box box;
-  for (const Vec3& p : points) box.add(p);
-  std::vector<std::pair<std::uint64_t, LocalIndex>> keys(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) keys[i] = {morton_code(points[i], box), static_cast<LocalIndex>(i)};
-  std::sort(keys.begin(), keys.end());
-  std::vector<LocalIndex> order(points.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = keys[i].second;
-  return order;
-}
-
 /// One rendezvous: placements of the points; those with nothing within reach come back without an element.
 std::vector<Placement> rendezvous(const Communicator& comm, std::span<const ElementPacket> elements,
                                   std::span<const Box> boxes, std::span<const Vec3> points, double reach,
                                   const PlaceRules& rules, const std::string& name) {
+  if (comm.size() == 1) {  // nothing to bring together
+    std::vector<Placement> places(points.size());
+    place_many(elements, boxes, BoxTree(boxes), points, reach, rules, places);
+    return places;
+  }
   const DistributedSearch search(comm, boxes, points, reach, name);
   std::vector<ElementPacket> arrived(static_cast<std::size_t>(search.boxes().received()));
   {
@@ -62,15 +38,7 @@ std::vector<Placement> rendezvous(const Communicator& comm, std::span<const Elem
   }
   const std::span<const Vec3> here = search.arrived_points();
   std::vector<Placement> places(here.size());
-  std::vector<LocalIndex> candidates;
-  for (const LocalIndex i : spatial_order(here)) {
-    const Vec3& point = here[static_cast<std::size_t>(i)];
-    candidates.clear();
-    search.tree().containing(point, candidates);
-    Placement& place = places[static_cast<std::size_t>(i)];
-    place = place_inside(arrived, candidates, point, rules);
-    if (place.element == no_id) place = place_nearest(arrived, search.tree(), point, reach, rules);
-  }
+  place_many(arrived, search.arrived_boxes(), search.tree(), here, reach, rules, places);
   std::vector<Placement> result(points.size());
   search.points().reverse(std::span<const Placement>(places), std::span<Placement>(result));
   return result;
@@ -151,16 +119,22 @@ PlacedNodes::PlacedNodes(const Mesh& mesh, const Items& nodes, std::span<const P
   for (std::size_t i = 0; i < placements.size(); ++i)
     if (placements[i].element != no_id) element_of_[i] = wanted.slot(placements[i].owner, placements[i].item);
 
-  std::vector<ElementNodes> mine(static_cast<std::size_t>(mesh.elements()));
+  // Alone, a rank fills what it wants from its own mesh; otherwise all that somebody may ask for.
+  const bool alone = mesh.comm.size() == 1;
+  nodes_.resize(wanted.owners().size());
+  std::vector<ElementNodes> mine(alone ? 0 : static_cast<std::size_t>(mesh.elements()));
+  std::size_t next = 0;  // items that are wanted ascend
   for_each_element(mesh, [&](LocalIndex item, const ElementBlock& block, LocalIndex e) {
-    ElementNodes& to = mine[static_cast<std::size_t>(item)];
+    if (alone && (next == nodes_.size() || wanted.indices()[next] != item)) return;
+    ElementNodes& to = alone ? nodes_[next++] : mine[static_cast<std::size_t>(item)];
     const auto connectivity = block.nodes(e);
     for (std::size_t a = 0; a < connectivity.size(); ++a) {
       const auto n = static_cast<std::size_t>(connectivity[a]);
       to.id[a] = nodes.ids[n], to.owner[a] = nodes.owners[n], to.at_owner[a] = nodes.at_owner[n];
     }
+    to.nodes = static_cast<std::int32_t>(connectivity.size());
   });
-  nodes_.resize(wanted.owners().size());
+  if (alone) return;
   std::vector<LocalIndex> into(nodes_.size());
   std::iota(into.begin(), into.end(), LocalIndex{0});
   ExchangePlan::from_owners(mesh.comm, wanted.owners(), wanted.indices(), into, name)

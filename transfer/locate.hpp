@@ -34,6 +34,8 @@ struct ElementNodes {
   std::array<GlobalId, max_nodes> id{};
   std::array<int, max_nodes> owner{};
   std::array<LocalIndex, max_nodes> at_owner{};
+  std::int32_t nodes = 0;
+  std::size_t count() const { return static_cast<std::size_t>(nodes); }
 };
 
 /// The nodes of the elements that points were placed in, fetched from the elements' owners.
@@ -44,6 +46,9 @@ class PlacedNodes {
   const ElementNodes& of(std::size_t placement) const {
     return nodes_[static_cast<std::size_t>(element_of_[placement])];
   }
+  /// The distinct elements.
+  std::size_t elements() const { return nodes_.size(); }
+  const ElementNodes& element(std::size_t i) const { return nodes_[i]; }
 
  private:
   std::vector<LocalIndex> element_of_;

@@ -46,6 +46,12 @@ Vec3 clamped(ElementKind kind, Vec3 xi) {
   return xi;
 }
 
+}  // namespace
+
+bool ends_search(double overshoot, const PlaceRules& rules) {
+  return overshoot <= std::min(on_surface, 2 * rules.tolerance);
+}
+
 Placement in_element(const ElementPacket& element) {
   Placement place;
   place.element = element.id;
@@ -55,11 +61,14 @@ Placement in_element(const ElementPacket& element) {
   return place;
 }
 
+namespace {
+
 std::span<double> weights_of(Placement& place) {
   return std::span(place.weights).first(static_cast<std::size_t>(topology(place.kind).nodes));
 }
 
-/// Weights of a point within the element; exactly one corner if it is that corner.
+}  // namespace
+
 void set_weights_at(Placement& place, const ElementPacket& element, const Vec3& point, const Vec3& xi) {
   const std::span<double> weights = weights_of(place);
   const auto corners = element.corner_span();
@@ -72,6 +81,8 @@ void set_weights_at(Placement& place, const ElementPacket& element, const Vec3& 
   for (double& w : weights) w = std::max(w, 0.0);
   make_partition_of_unity(weights);
 }
+
+namespace {
 
 /// Gradients dN_a/dx at xi, 1/m. False where the Jacobian is singular.
 bool spatial_gradients(const ElementPacket& element, const Vec3& xi, std::span<Vec3> gradients) {
@@ -142,7 +153,7 @@ Placement place_inside(std::span<const ElementPacket> elements, std::span<LocalI
     // Overshoot counts half widths of the element.
     if (outside > 2 * rules.tolerance || !(outside < least)) continue;
     least = outside, best = &element, best_xi = inverse.xi;
-    if (outside <= std::min(on_surface, 2 * rules.tolerance)) break;
+    if (ends_search(outside, rules)) break;
   }
   if (!best) return {};
   Placement place = in_element(*best);

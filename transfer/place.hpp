@@ -48,6 +48,14 @@ struct PlaceRules {
 Placement place_inside(std::span<const ElementPacket> elements, std::span<LocalIndex> candidates, const Vec3& point,
                        const PlaceRules& rules);
 
+/// Whether a point that oversteps an element by so many half widths needs to look no further.
+bool ends_search(double overshoot, const PlaceRules& rules);
+/// A placement there, without weights.
+Placement in_element(const ElementPacket& element);
+/// Weights of a point at local coordinates xi of the element, which are put within it; exactly one corner if it is that
+/// corner.
+void set_weights_at(Placement& place, const ElementPacket& element, const Vec3& point, const Vec3& xi);
+
 /// The nearest of all elements whose boxes are in the tree, at most `reach` away; ties go to the smallest id. No
 /// element if there is none. `tree` holds boxes in the order of `elements`, each a little larger than its element.
 Placement place_nearest(std::span<const ElementPacket> elements, const BoxTree& tree, const Vec3& point, double reach,

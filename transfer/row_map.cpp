@@ -82,22 +82,29 @@ Rows share_rows(const Communicator& comm, const Items& items, Rows&& owned, cons
   return all;
 }
 
-RowMap::RowMap(const Communicator& comm, const Rows& rows, bool interpolating, double empty_value,
-               const std::string& name)
-    : begin_(rows.begin), interpolating_(interpolating), empty_value_(empty_value) {
+void RowMap::take_gather(const Communicator& comm, const SlotTable& wanted, const std::string& name) {
+  slots_ = wanted.owners().size();
+  std::vector<LocalIndex> into(slots_);
+  std::iota(into.begin(), into.end(), LocalIndex{0});
+  gather_ = ExchangePlan::from_owners(comm, wanted.owners(), wanted.indices(), into, name);
+}
+
+RowMap::RowMap(const Communicator& comm, const Rows& rows, const std::string& name) : begin_(rows.begin) {
   SlotTable wanted;
   for (const Term& term : rows.terms) wanted.mark(term.owner, term.at_owner);
   wanted.number();
-  slots_ = wanted.owners().size();
   slot_.reserve(rows.terms.size());
   weight_.reserve(rows.terms.size());
   for (const Term& term : rows.terms) {
     slot_.push_back(wanted.slot(term.owner, term.at_owner));
     weight_.push_back(term.weight);
   }
-  std::vector<LocalIndex> into(slots_);
-  std::iota(into.begin(), into.end(), LocalIndex{0});
-  gather_ = ExchangePlan::from_owners(comm, wanted.owners(), wanted.indices(), into, name);
+  take_gather(comm, wanted, name);
+}
+
+RowMap::RowMap(const Communicator& comm, PointRows&& rows, double empty_value, const std::string& name)
+    : slot_(std::move(rows.slot_)), weight_(std::move(rows.weight_)), width_(rows.width_), empty_value_(empty_value) {
+  take_gather(comm, rows.table_, name);
 }
 
 template <int components>
@@ -114,31 +121,69 @@ void RowMap::multiply_fixed(const double* gathered, double* target) const {
   }
 }
 
-template <int components>
+// Two sums side by side, for the latency of the additions.
+template <int components, int width>
 void RowMap::interpolate_fixed(const double* gathered, double* target) const {
-  const LocalIndex* const slot = slot_.data();
-  const double* const weight = weight_.data();
-  for (std::size_t i = 0; i < rows(); ++i, target += components) {
-    const std::int64_t first = begin_[i], last = begin_[i + 1];
-    std::array<double, components> base, sum{};
-    if (first == last) {
+  const LocalIndex* slot = slot_.data();
+  const double* weight = weight_.data();
+  const std::size_t count = rows();
+  for (std::size_t i = 0; i < count; ++i, target += components, slot += width, weight += width - 1) {
+    if (slot[0] == no_index) {
       std::fill_n(target, components, empty_value_);
       continue;
     }
-    std::copy_n(gathered + static_cast<std::size_t>(slot[first]) * components, components, base.begin());
-    for (std::int64_t k = first + 1; k < last; ++k) {
+    const double* const base = gathered + static_cast<std::size_t>(slot[0]) * components;
+    std::array<double, components> odd{}, even{};
+    for (std::size_t k = 1; k < width; k += 2) {
       const double* const value = gathered + static_cast<std::size_t>(slot[k]) * components;
-      for (std::size_t c = 0; c < components; ++c) sum[c] += weight[k] * (value[c] - base[c]);
+      for (std::size_t c = 0; c < components; ++c) odd[c] += weight[k - 1] * (value[c] - base[c]);
+      if (k + 1 >= width) break;
+      const double* const next = gathered + static_cast<std::size_t>(slot[k + 1]) * components;
+      for (std::size_t c = 0; c < components; ++c) even[c] += weight[k] * (next[c] - base[c]);
     }
-    for (std::size_t c = 0; c < components; ++c) target[c] = base[c] + sum[c];
+    for (std::size_t c = 0; c < components; ++c) target[c] = base[c] + (odd[c] + even[c]);
   }
+}
+
+// The same sums for any number of components and terms.
+void RowMap::multiply_any(const double* gathered, double* target, std::size_t components) const {
+  for (std::size_t i = 0; i < rows(); ++i)
+    for (std::size_t c = 0; c < components; ++c) {
+      const auto value = [&](std::size_t k) { return gathered[static_cast<std::size_t>(slot_[k]) * components + c]; };
+      double& to = target[i * components + c];
+      if (width_ == 0) {
+        to = 0;
+        for (auto k = static_cast<std::size_t>(begin_[i]); k < static_cast<std::size_t>(begin_[i + 1]); ++k)
+          to += weight_[k] * value(k);
+        continue;
+      }
+      const std::size_t first = i * width_;
+      if (slot_[first] == no_index) {
+        to = empty_value_;
+        continue;
+      }
+      const double base = value(first);
+      std::array<double, 2> sum{};
+      for (std::size_t k = 1; k < width_; ++k)
+        sum[(k + 1) % 2] += weight_[i * (width_ - 1) + k - 1] * (value(first + k) - base);
+      to = base + (sum[0] + sum[1]);
+    }
 }
 
 void RowMap::multiply(std::span<const double> gathered, std::span<double> target, int components) const {
   assert(target.size() == rows() * static_cast<std::size_t>(components));
+  const double* const from = gathered.data();
   const auto run = [&]<int n>() {
-    interpolating_ ? interpolate_fixed<n>(gathered.data(), target.data())
-                   : multiply_fixed<n>(gathered.data(), target.data());
+    switch (width_) {
+      case 0:
+        return multiply_fixed<n>(from, target.data());
+      case 4:
+        return interpolate_fixed<n, 4>(from, target.data());
+      case 8:
+        return interpolate_fixed<n, 8>(from, target.data());
+      default:
+        return multiply_any(from, target.data(), n);
+    }
   };
   switch (components) {
     case 1:
@@ -149,21 +194,9 @@ void RowMap::multiply(std::span<const double> gathered, std::span<double> target
       return run.operator()<3>();
     case 6:
       return run.operator()<6>();
-    case 9:
-      return run.operator()<9>();
     default:
-      break;
+      return multiply_any(from, target.data(), static_cast<std::size_t>(components));
   }
-  const auto width = static_cast<std::size_t>(components);
-  for (std::size_t i = 0; i < rows(); ++i)
-    for (std::size_t c = 0; c < width; ++c) {
-      const auto first = static_cast<std::size_t>(begin_[i]), last = static_cast<std::size_t>(begin_[i + 1]);
-      const auto value = [&](std::size_t k) { return gathered[static_cast<std::size_t>(slot_[k]) * width + c]; };
-      const double base = interpolating_ && first < last ? value(first) : 0.0;
-      double sum = interpolating_ && first == last ? empty_value_ : 0.0;
-      for (std::size_t k = interpolating_ ? first + 1 : first; k < last; ++k) sum += weight_[k] * (value(k) - base);
-      target[i * width + c] = base + sum;
-    }
 }
 
 std::int64_t RowMap::memory() const {

@@ -19,7 +19,7 @@ struct Side {
   const Items& items;  ///< of `location`
 };
 
-/// Points that were sought, and what became of them.
+/// Points that were sought, and what became of them; each once over all ranks.
 struct Sought {
   std::vector<Vec3> points;
   std::vector<GlobalId> ids;  ///< of the item that each belongs to, for naming and ties
@@ -30,10 +30,10 @@ struct Sought {
 /// Places of the owned items: nodes, or centres of elements.
 std::vector<Vec3> item_points(const Side& side);
 
-/// Collective. Terms of each owned target item from the source element that holds it. With `drop_outside`, items
-/// outside get no terms.
-Rows interpolation_rows(const Side& source, const Side& target, const PlaceRules& rules, bool drop_outside,
-                        const std::string& name, Sought& sought);
+/// Collective. The map that gives every local target item, ghosts too, the shape functions of the source element that
+/// holds it. With `drop_outside`, items outside have no terms and receive `empty_value`. `sought` has the owned items.
+RowMap interpolation_map(const Side& source, const Side& target, const PlaceRules& rules, bool drop_outside,
+                         double empty_value, const std::string& name, Sought& sought);
 
 /// Collective. Terms of each owned target item from all source items that have points near it. Sums over the columns
 /// are 1 (totals); with `density`, weights are multiplied by the source item's volume and divided by the target's.

@@ -12,13 +12,25 @@ namespace {
 
 constexpr float float_infinity = std::numeric_limits<float>::infinity();
 
+/// The float next to f away from zero; zero and infinity stay.
+float outward(float f) {
+  return f == 0 || !std::isfinite(f) ? f : std::bit_cast<float>(std::bit_cast<std::uint32_t>(f) + 1);
+}
+/// The float next to f towards zero, which is none of zero and infinity.
+float inward(float f) {
+  return std::bit_cast<float>(std::bit_cast<std::uint32_t>(f) - 1);
+}
+constexpr float smallest = std::numeric_limits<float>::denorm_min();
+
 float rounded_down(double x) {
   const float f = static_cast<float>(x);
-  return static_cast<double>(f) > x ? std::nextafter(f, -float_infinity) : f;
+  if (!(static_cast<double>(f) > x)) return f;
+  if (f == 0) return -smallest;
+  if (f > std::numeric_limits<float>::max()) return std::numeric_limits<float>::max();
+  return f > 0 ? inward(f) : outward(f);
 }
 float rounded_up(double x) {
-  const float f = static_cast<float>(x);
-  return static_cast<double>(f) < x ? std::nextafter(f, float_infinity) : f;
+  return -rounded_down(-x);
 }
 
 bool is_number(const Vec3& x) {
