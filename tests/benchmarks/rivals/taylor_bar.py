@@ -77,7 +77,7 @@ RIVALS = [("C3D8I implicit", "C3D8I", ", ALPHA=-0.3", "2.5E-7"), ("C3D8R implici
 
 # An independent one-point hexahedral code on meshes of its own: elements, steps, length, foot radius, plastic strain. Its
 # time is not known; what stands there is elements x steps at the rate of OpenRadioss for such elements with
-# rank-independent sums, 1.40 million element-steps per processor second, measured on a machine of the same class.
+# rank-independent sums, 1.40 million element-steps per processor second, measured on another machine (EPYC, Zen 3).
 INDEPENDENT = [(1080, 7000, 21.4961, 7.1154, 3.047), (2880, 13065, 21.4658, 7.1587, 3.169)]
 OPENRADIOSS_RATE = 1.40e6
 
@@ -106,7 +106,7 @@ def main():
     options = parser.parse_args()
     tenon = Tenon(options.build)
     table = Table(options.csv, ["code", "elements", "steps", "seconds", "L_mm", "R_mm", "eqps", "L_error", "R_error"])
-    codes = {"Tenon": ["viscous"], "Tenon, physical hourglass": ["physical"]}
+    codes = {"Tenon": ["viscous"], "Tenon (physical hourglass)": ["physical"]}
     codes |= {f"CalculiX {name}": settings for name, *settings in RIVALS}
 
     def row(code, elements, steps, seconds, length, radius, strain):
