@@ -146,7 +146,7 @@ struct NoHourglass {
 struct ViscousHourglass {
   static constexpr int state_size = 0;
   static constexpr bool uses_relaxation = false;
-  double coefficient = 0.1;
+  double coefficient = 0.03;
 
   template <typename R>
   TENON_KERNEL void rotate(const Tensor<R>&, Batch<1>&, int) const {}

@@ -19,7 +19,7 @@ namespace tenon {
 
 struct HourglassOptions {
   enum class Form { viscous, stiffness, physical, none } form = Form::viscous;
-  double coefficient = 0.1;  ///< viscous 0.1, stiffness 0.05 are usual; physical has none
+  double coefficient = 0.03;  ///< viscous 0.03 (see docs/decisions/0015), stiffness 0.05; physical has none
 };
 
 struct TimeStepOptions {

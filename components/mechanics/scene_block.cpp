@@ -97,7 +97,7 @@ void read_control(const Value& value, MechanicsOptions& options, Diagnostics& di
                              : form == "physical" ? Form::physical
                              : form == "none"     ? Form::none
                                                   : Form::viscous;
-    const double usual = options.hourglass.form == Form::stiffness ? 0.05 : 0.1;
+    const double usual = options.hourglass.form == Form::stiffness ? 0.05 : 0.03;
     options.hourglass.coefficient = h.has("coefficient") ? h.real("coefficient") : usual;
   }
   if (value.has("bulk_viscosity")) {

@@ -45,7 +45,7 @@ Schema hourglass_schema() {
       "`viscous` is right for plastic flow; `stiffness` for elastic bodies; `physical` bends as the material does, "
       "elastic or plastic, at some cost; `none` for tests.",
       "viscous");
-  s.quantity("coefficient", "1", "Its strength; without it 0.1 (viscous) or 0.05 (stiffness).", "",
+  s.quantity("coefficient", "1", "Its strength; without it 0.03 (viscous) or 0.05 (stiffness).", "",
              {0, 1, false, false});
   return s;
 }

@@ -8,6 +8,7 @@ void Progress::start(Simulation& simulation, bool) {
   clock_.reset(simulation.time(), simulation.steps());
   began_ = std::chrono::steady_clock::now();
   first_time_ = simulation.time();
+  for (const auto& component : simulation.components()) told_.push_back(component->warnings().size());
   header(simulation);
 }
 
@@ -26,7 +27,16 @@ void Progress::header(Simulation& simulation) {
                          "dt s", rows, "error", "to go");
 }
 
+// Those of the start stand in the log already.
+void Progress::new_warnings(Simulation& simulation) {
+  for (std::size_t c = 0; c < told_.size(); ++c) {
+    const std::vector<std::string> warnings = simulation.components()[c]->warnings();
+    for (; told_[c] < warnings.size(); ++told_[c]) simulation.log().warning(warnings[told_[c]]);
+  }
+}
+
 void Progress::line(Simulation& simulation) {
+  new_warnings(simulation);
   const LedgerSnapshot ledger = simulation.ledger().take();
   std::string rows;
   for (const LedgerRow& row : ledger.rows) rows += fmt::format(" {:>11.4e}", row.value);

@@ -9,7 +9,8 @@
 
 namespace tenon {
 
-/// Step, time, dt, what limits it, energies, ledger error, time to go.
+/// Step, time, dt, what limits it, energies, ledger error, time to go; before it, warnings that have arisen since the
+/// start.
 class Progress : public Observer {
  public:
   explicit Progress(Interval every) : every_(every) {}
@@ -19,11 +20,13 @@ class Progress : public Observer {
  private:
   void header(Simulation& simulation);
   void line(Simulation& simulation);
+  void new_warnings(Simulation& simulation);
   double seconds_left(const Simulation& simulation) const;
   Interval every_;
   IntervalClock clock_;
   std::chrono::steady_clock::time_point began_;
   double first_time_ = 0;
+  std::vector<std::size_t> told_;  // warnings of each component
 };
 
 }  // namespace tenon

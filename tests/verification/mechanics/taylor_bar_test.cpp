@@ -45,7 +45,8 @@ TEST(TaylorBar, CopperShortensAndSpreadsAsItShould) {
   for (const double e : field(m, "eqps")) eqps = std::max(eqps, e);
   EXPECT_NEAR(length, 21.47e-3, 0.005 * 21.47e-3);
   EXPECT_NEAR(greatest_radius(m), 7.18e-3, 0.02 * 7.18e-3);
-  // 2.90 with these 1080 elements. Converged: 3.1 to 3.3 (3.17 with 2880); the strain is that of one element at the rim.
+  // 2.90 with these 1080 elements. Converged: 3.1 to 3.3 (3.17 with 2880); the strain is that of one element at the
+  // rim.
   EXPECT_NEAR(eqps, 3.1, 0.4);
   // The nodes on the wall start at rest, so the wall never works; hourglass control must not eat the impact.
   const auto rows = energy_rows(m);
