@@ -25,6 +25,7 @@ if(TENON_MARCH)
   add_compile_options(-march=${TENON_MARCH})
   if(TENON_MARCH MATCHES "x86-64-v4")
     add_compile_options(-mprefer-vector-width=256)
+    add_compile_options(-Wno-maybe-uninitialized)  # the compiler's own AVX-512 headers (gcc bug 105593)
   endif()
 endif()
 
