@@ -311,9 +311,8 @@ void ShellGroup<S>::add_energy(std::size_t b, int point, const Batch<6>& before,
   for (int l = 0; l < lanes; ++l) {
     const auto power = [&](int i) { return (before[i][l] + now[i][l]) * strain[i][l]; };
     const double shear = (5.0 / 3.0) * (power(4) + power(5)) / shear_share_[b][0][l];
-    const double volume = value_of(mass, static_cast<LocalIndex>(b) * lanes + l) / material().density;
-    const double work =
-        0.5 * volume * rule_.weight[static_cast<std::size_t>(point)] * (power(0) + power(1) + 2 * power(3) + shear);
+    const double work = 0.5 * reference_volume_[b][0][l] * rule_.weight[static_cast<std::size_t>(point)] *
+                        (power(0) + power(1) + 2 * power(3) + shear);
     internal_energy[b][0][l] += dead[b][0][l] == 0 ? work : 0.0;
   }
 }

@@ -103,6 +103,7 @@ class ShellGroup final : public ElementGroup {
   ElementValues slowness_;           // mass of a node over its inertia, 1/m^2
   ElementValues shear_share_;        // 5/6 and less in thin triangles
   ElementValues thickness_;          // m, now
+  ElementValues reference_volume_;   // m^3; only if elements can fail
   ElementValues stretching_;         // rate of area of the middle surface over the last step, 1/s: for the viscosity
   std::vector<Batch<varying>> varying_;  // stresses of the varying strains, Pa and Pa/m; drilling moments, N m
   const Vec3* position_;                 // of the last advance, at first of the reference

@@ -52,6 +52,7 @@ ShellGroup<S>::ShellGroup(std::size_t block, const ElementBlock& elements, std::
       slowness_(batches()),
       shear_share_(batches()),
       thickness_(batches()),
+      reference_volume_(dead.size()),
       stretching_(batches()),
       varying_(batches()),
       position_(coordinates.data()),
@@ -100,6 +101,7 @@ void ShellGroup<S>::set_reference(LocalIndex element, std::span<const Vec3> coor
   const double area = shell_area<S>(x);
   const double t = section.thickness_field ? section.thickness_field(centre) : section.thickness;
   thickness_[b][0][l] = t;
+  if (!reference_volume_.empty()) reference_volume_[b][0][l] = area * t;
   value_of(mass, element) = t > 0 ? material().density * area * t : 0.0;  // none is reported by the component
   // Thin triangles would lock in shear: [LSV93] takes t^2/(t^2 + 0.1 h^2) of it, h^2 twice the area.
   shear_share_[b][0][l] = S::nodes == 4 ? 1.0 : 1 / (1 + 0.2 * area / (t * t));

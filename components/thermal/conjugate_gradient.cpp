@@ -92,6 +92,9 @@ SolveReport ConjugateGradient::solve(const HeatSystem& system, std::span<const d
   constexpr double round_off = 64 * std::numeric_limits<double>::epsilon();
   multigrid_ = multigrid;
   const double scale = scale_of(system, b, x);
+  // Nothing drives the free rows: from a guess that is not zero, iterations would only ever come nearer.
+  for (std::size_t k = 0; k < b.size() && scale == 0; ++k)
+    if (system.inverse_diagonal[k] != 0) x[static_cast<std::size_t>(mesh_.owned_nodes[k])] = 0;
   SolveReport report;
   for (int attempt = 0; attempt <= restarts; ++attempt) {
     true_residual(system, b, x, residual);

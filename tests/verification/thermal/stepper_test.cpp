@@ -108,6 +108,25 @@ TEST(TrBdf2, StepsGrowAsTheTemperatureSettles) {
   EXPECT_NEAR(temperature_at(thermal, {0.05, 0, 0}), 50, 1e-3);
 }
 
+/// Heat that is even drives nothing: the right-hand side falls to nothing, the last increment has not.
+TEST(Steppers, RestFollowsHeating) {
+  for (const ThermalStepper stepper : {ThermalStepper::backward_euler, ThermalStepper::crank_nicolson}) {
+    BoxShape strip;
+    strip.low = {0, 0, -2e-3}, strip.high = {0.1, 5e-3, 2e-3};
+    strip.elements = {10, 1, 2};
+    ThermalOptions options;
+    options.blocks = {{"box", 7850, 460, 50, 300}};
+    options.stepper = stepper;
+    options.fixed_step = 1e-5;
+    const double power = 50 * 7850.0 * 460 / 1e-3;
+    options.sources = {{"box", TimeFunction::table({{0, 0}, {1e-3, power}, {2e-3, 0}})}};
+    Thermal thermal("heat", distributed(strip), options);
+    thermal.initialize();
+    for (int s = 0; s < 1000; ++s) thermal.advance(s % 3 == 0 ? 0.7e-5 : 1e-5);
+    for (const double t : thermal.temperature()) EXPECT_NEAR(t, 350, 0.01);
+  }
+}
+
 TEST(Steppers, RestartWithAnotherOneGoesOn) {
   const auto mesh = distributed(cube(3, true));
   const std::string path = "thermal_stepper_np" + std::to_string(communicator().size()) + ".h5";
