@@ -194,9 +194,9 @@ TEST(GridTransfer, ApplyAllocatesNothingOnceItHasGrown) {
   const GridTransfer map = testing::make_transfer(pair, FieldKind::point_value);
   std::vector<double> source(3 * pair.source->node_ids.size(), 1.0), target(3 * pair.target->node_ids.size());
   for (int repeat = 0; repeat < 2; ++repeat) map.apply(source, target, 3);
-  const std::int64_t before = tenon::testing::allocation_count();
+  const std::int64_t before = tenon::testing::allocations();
   for (int repeat = 0; repeat < 5; ++repeat) map.apply(source, target, 3);
-  EXPECT_EQ(tenon::testing::allocation_count(), before);
+  EXPECT_EQ(tenon::testing::allocations(), before);
 }
 
 TEST(GridTransfer, UpdateRebuildsOnlyWhereSomethingMoved) {

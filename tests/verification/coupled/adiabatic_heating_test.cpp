@@ -19,7 +19,7 @@ std::unique_ptr<Component> pulled_cube(double hardening_modulus) {
   material.thermal = ThermalProperties{50, specific_heat, start_temperature, 0.9};
   MechanicsOptions options;
   options.heat = HeatMode::exported;
-  options.blocks = {{"box", material}};
+  options.blocks = {{"box", material, {}, {}}};
   PrescribedMotion pull = motion(Kind::displacement, {"x_max"});
   pull.components = {true, false, false};
   pull.value[0] = TimeFunction::smooth_step(0, std::exp(0.5) - 1, 0, end_time);
