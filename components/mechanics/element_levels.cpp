@@ -47,7 +47,8 @@ std::vector<std::int32_t> node_levels(const Mesh& mesh, const ElementLevels& lev
   return least;
 }
 
-ElementLevels find_levels(const Mesh& mesh, const ElementGroups& groups, double step, int greatest) {
+ElementLevels find_levels(const Mesh& mesh, const ElementGroups& groups, const LevelRules& rules,
+                          std::span<const std::int32_t> stiff) {
   const std::vector<std::int64_t> uniform = blocks_of_one_level(mesh, groups);
   ElementLevels levels(mesh.blocks.size());
   for (std::size_t b = 0; b < levels.size(); ++b) {
@@ -56,14 +57,16 @@ ElementLevels find_levels(const Mesh& mesh, const ElementGroups& groups, double 
       const ElementGroups::Place place = groups.place(b, e);
       std::int32_t& level = levels[b][static_cast<std::size_t>(e)];
       if (place.group->rigid) continue;
-      const double allowed = slow_share * value_of(place.group->steps, place.element);
-      while (level < greatest && static_cast<double>(std::int64_t{2} << level) * step <= allowed) ++level;
+      const double allowed = std::min(rules.share * value_of(place.group->steps, place.element), rules.longest);
+      while (level < rules.greatest && static_cast<double>(std::int64_t{2} << level) * rules.step <= allowed) ++level;
     }
   }
   bool again = true;
   while (again) {
     level_blocks(mesh, uniform, levels);
-    const std::vector<std::int32_t> least = node_levels(mesh, levels);
+    std::vector<std::int32_t> least = node_levels(mesh, levels);
+    for (std::size_t n = 0; n < least.size(); ++n)
+      if (stiff[n]) least[n] = 0;
     again = false;
     for (std::size_t b = 0; b < levels.size(); ++b)
       for (LocalIndex e = 0; e < mesh.blocks[b].size(); ++e) {

@@ -38,13 +38,23 @@ void Mechanics::initialize() {
 void Mechanics::advance(double dt) {
   const int steps = short_steps();
   const double h = dt / steps;
-  forget_steps();
-  for (int step = 0; step < steps; ++step) take_step(step, time() + step * h, h);
+  for (int step = 0; step < steps; ++step) {
+    forget_steps();  // all levels end a step with the last one
+    take_step(step, time() + step * h, h);
+    if (step + 1 < steps) stop_if_bad();
+  }
   set_time(time() + dt);
   started_ = true;
   ++steps_;
   choose_step();
   if (subcycling_ && levels_are_due()) choose_levels();
+}
+
+// Between the steps of the longest: as choose_step does after them.
+void Mechanics::stop_if_bad() {
+  const ScopedTimer timer(*phases_.reduce);
+  const double least = mesh_->comm.min(local_least_.step);
+  if (least < 0) fail(least);
 }
 
 void Mechanics::take_step(int step, double now, double dt) {
@@ -70,6 +80,7 @@ void Mechanics::kick(int step, double now, double dt) {
   const ScopedTimer timer(*phases_.update);
   if (relaxation_ && relaxation_->begin(nodes_)) previous_dt_ = 0;
   const double kick = 0.5 * (previous_dt_ + dt);
+  if (!former_force_.empty()) blend_forces(dt);
   if (!loads_->empty()) loads_->apply(nodes_, groups_, now, kick);
   if (!rigid_->empty()) set_rigid_rates();
   if (!loads_->empty()) loads_->remember(nodes_);
@@ -92,6 +103,18 @@ void Mechanics::kick(int step, double now, double dt) {
   if (rigid_->empty()) return;
   rigid_->move(nodes_, dt);
   if (!ties_->empty()) ties_->follow(nodes_);
+}
+
+// The half kick that ends the step before belongs to the levels of then.
+void Mechanics::blend_forces(double dt) {
+  const double before = previous_dt_ / (previous_dt_ + dt), after = dt / (previous_dt_ + dt);
+  const auto blend = [&](std::vector<ForceRow>& former, std::vector<ForceRow>& now) {
+    for (std::size_t n = 0; n < former.size(); ++n)
+      for (int c = 0; c < 3; ++c) now[n].v[c] = before * former[n].v[c] + after * now[n].v[c];
+    former.clear();
+  };
+  blend(former_force_, nodes_.force);
+  blend(former_moment_, nodes_.moment);
 }
 
 // Ghosts keep the velocities that they came with: no force may look at them from here on.

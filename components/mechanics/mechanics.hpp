@@ -87,6 +87,8 @@ class Mechanics final : public Component {
   void set_spins();
   // Phases of a step.
   void take_step(int step, double now, double dt);
+  void stop_if_bad();
+  void blend_forces(double dt);
   void kick(int step, double now, double dt);
   void set_rigid_rates();
   void refresh_ghosts();
@@ -105,6 +107,7 @@ class Mechanics final : public Component {
   bool levels_are_due() const;
   void split(const ElementLevels& levels);
   std::vector<int> busy_nodes() const;
+  std::vector<std::int32_t> stiff_nodes() const;
   void save_levels(CheckpointWriter& file);
   void load_levels(const CheckpointReader& file);
   ElementGroup* any_group(std::size_t block) const;
@@ -128,9 +131,10 @@ class Mechanics final : public Component {
   NodalConditions conditions_;
   NodalState nodes_;
   ElementGroups groups_;
-  std::deque<ElementBlock> parts_;          // elements of one block and level, where blocks are split
-  ElementLevels levels_;                    // as they are split
-  std::unique_ptr<Subcycling> subcycling_;  // if asked for
+  std::deque<ElementBlock> parts_;                      // elements of one block and level, where blocks are split
+  std::vector<ForceRow> former_force_, former_moment_;  // by the levels before; only until the next kick
+  ElementLevels levels_;                                // as they are split
+  std::unique_ptr<Subcycling> subcycling_;              // if asked for
   std::unique_ptr<Loads> loads_;
   std::unique_ptr<KineticRelaxation> relaxation_;  // if asked for
   std::unique_ptr<RigidBodies> rigid_;

@@ -142,7 +142,12 @@ void Mechanics::load(const CheckpointReader& file) {
   }
   for (Loads::Row& row : loads_->rows())
     node_array(row.name, 1, [&](std::size_t n, std::size_t) -> double& { return row.work[n]; });
-  if (options_.time_step.subcycling > 1 && file.has(key("leveled_at"))) load_levels(file);
+  const std::int64_t subcycling = file.has(key("subcycling")) ? file.integer(key("subcycling")) : 1;
+  if (subcycling > 1 && subcycling != options_.time_step.subcycling)
+    throw Error(ExitCode::usage, fmt::format("{}: the checkpoint was written with time_step.subcycling: {}; continue "
+                                             "with the same",
+                                             name(), subcycling));
+  if (subcycling > 1) load_levels(file);
   for (std::size_t b = 0; b < mesh_->blocks.size(); ++b) {
     const ElementBlock& block = mesh_->blocks[b];
     chosen.clear();
@@ -178,7 +183,9 @@ ElementGroup* Mechanics::any_group(std::size_t block) const {
 // Levels of the elements, and where nodes between levels have been: mean velocities and spins.
 void Mechanics::save_levels(CheckpointWriter& file) {
   const auto key = [&](const std::string& field) { return name() + "." + field; };
+  file.integer(key("subcycling"), options_.time_step.subcycling);
   file.integer(key("leveled_at"), leveled_at_);
+  file.integer(key("blends"), former_force_.empty() ? 0 : 1);
   file.scalar(key("leveled_shortest"), leveled_shortest_);
   std::vector<LocalIndex> chosen;
   std::vector<double> values;
@@ -202,6 +209,12 @@ void Mechanics::save_levels(CheckpointWriter& file) {
     file.array(key(fmt::format("{}_{}", field, level)), order, values, 3);
     std::ranges::fill(means, Vec3{});
   };
+  const auto write_forces = [&](const std::string& field, const std::vector<ForceRow>& forces) {
+    for (std::size_t n = 0; n < forces.size(); ++n) std::copy_n(forces[n].v, 3, means[n].begin());
+    if (!forces.empty()) write(field, 0);
+  };
+  write_forces("former_force", former_force_);
+  write_forces("former_moment", former_moment_);
   const auto keep = [&](LocalIndex n, const Vec3& v) { means[static_cast<std::size_t>(n)] = v; };
   for (int level = 1; level <= subcycling_->greatest(); ++level) {
     subcycling_->visit_means(level, keep);
@@ -233,6 +246,16 @@ void Mechanics::load_levels(const CheckpointReader& file) {
   const GlobalOrder order(mesh_->comm, chosen_ids(mesh_->node_ids, mesh_->node_owners, every_rank, 0, chosen),
                           mesh_->global_nodes);
   values.resize(3 * nodes_.size());
+  const auto read_forces = [&](const std::string& field, std::vector<ForceRow>& forces) {
+    forces.resize(nodes_.size());
+    file.array(key(field + "_0"), order, values, 3);
+    for (std::size_t n = 0; n < forces.size(); ++n)
+      std::copy_n(values.begin() + 3 * static_cast<std::ptrdiff_t>(n), 3, forces[n].v);
+  };
+  if (file.integer(key("blends")) != 0) {
+    read_forces("former_force", former_force_);
+    if (nodes_.has_rotations()) read_forces("former_moment", former_moment_);
+  }
   const auto take = [&](LocalIndex n, Vec3& v) {
     std::copy_n(values.begin() + 3 * static_cast<std::ptrdiff_t>(n), 3, v.begin());
   };

@@ -110,6 +110,9 @@ void Mechanics::set_constraints() {
 }
 
 void Mechanics::refuse_misfits() const {
+  if (options_.time_step.subcycling > 1 && options_.time_step.fixed)
+    throw Error(ExitCode::usage,
+                name() + ": time_step.fixed is one step for all elements; with subcycling use maximum");
   if (options_.time_step.subcycling > 1 && (options_.loads.relaxation || options_.loads.damping.stiffness > 0))
     throw Error(ExitCode::usage,
                 fmt::format("{}: {} needs the forces of all elements in each step; use time_step.subcycling: 1", name(),

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "components/mechanics/element_kinds.hpp"
 #include "components/mechanics/mechanics.hpp"
@@ -56,7 +57,11 @@ bool Mechanics::levels_are_due() const {
 void Mechanics::choose_levels() {
   int greatest = 0;
   while ((2 << greatest) <= options_.time_step.subcycling) ++greatest;
-  split(find_levels(*mesh_, groups_, short_step(shortest_), greatest));
+  const TimeStepOptions& options = options_.time_step;
+  const LevelRules rules{short_step(shortest_), std::min(slow_share, options.scale),
+                         options.maximum.value_or(std::numeric_limits<double>::infinity()), greatest};
+  if (previous_dt_ > 0) former_force_ = nodes_.force, former_moment_ = nodes_.moment;
+  split(find_levels(*mesh_, groups_, rules, stiff_nodes()));
   leveled_at_ = steps_, leveled_shortest_ = shortest_;
   forget_steps();
   compute_forces(0, 0);
@@ -119,6 +124,22 @@ std::vector<int> Mechanics::busy_nodes() const {
   for (LocalIndex n = 0; n < mesh_->nodes() && !rigid_->empty(); ++n)
     if (rigid_->holds(n)) busy[static_cast<std::size_t>(n)] = 1;
   return busy;
+}
+
+// What couples them is as stiff as the shortest step allows: no long steps beside it.
+std::vector<std::int32_t> Mechanics::stiff_nodes() const {
+  std::vector<std::int32_t> stiff(nodes_.size());
+  const auto mark = [&](const auto& nodes) {
+    for (const LocalIndex n : nodes) stiff[static_cast<std::size_t>(n)] = 1;
+  };
+  mark(ties_->nodes()), mark(ties_->face_nodes());
+  for (const Loads::Row& row : loads_->rows())
+    if (row.name == "spring_energy" || (row.name == "damping_energy" && options_.loads.damping.mass == 0))
+      mark(row.nodes);
+  for (LocalIndex n = 0; n < mesh_->nodes() && !rigid_->empty(); ++n)
+    if (rigid_->holds(n)) stiff[static_cast<std::size_t>(n)] = 1;
+  mesh_->node_halo.forward<std::int32_t>(stiff, stiff);
+  return stiff;
 }
 
 void Mechanics::report_levels() {

@@ -69,6 +69,7 @@ Schema time_step_schema() {
             "Greatest ratio of the longest to the shortest step of elements: 1, 2, 4, ... Each element then moves with "
             "the longest step, in powers of two of the shortest, that it allows.",
             "1", {1, 1024, false, false});
+  s.at_most_one({"fixed", "subcycling"});
   s.quantity("fixed", "s", "Step to take whatever the elements allow.", "", Range::positive());
   s.quantity("maximum", "s", "Greatest step.", "", Range::positive());
   s.at_most_one({"fixed", "maximum"});

@@ -187,10 +187,33 @@ TEST(Subcycling, ShellsRingWithTheirFrequency) {
   EXPECT_LT(split->work_done(), plain->work_done() * 2 / 3);
 }
 
-TEST(Subcycling, RefusesWhatNeedsAllForces) {
+TEST(Subcycling, RefusesWhatNeedsAllForcesOrEqualSteps) {
   MechanicsOptions options = free_body(4);
   options.loads.damping.stiffness = 1e-9;
   EXPECT_THROW(body(shared_mesh(graded_box()), steel(), options), Error);
+  options = free_body(4);
+  options.time_step.fixed = 1e-8;
+  EXPECT_THROW(body(shared_mesh(graded_box()), steel(), options), Error);
+}
+
+// The user's share holds for all levels, and the greatest step for the longest.
+TEST(Subcycling, SharesAndTheGreatestStepHold) {
+  const auto plain = body(shared_mesh(graded_box()), steel(), [] {
+    MechanicsOptions options = free_body(1);
+    options.time_step.estimate = TimeStepOptions::Estimate::element;
+    options.time_step.scale = 0.5;
+    return options;
+  }());
+  plain->initialize();
+  MechanicsOptions options = free_body(16);
+  options.time_step.scale = 0.5;
+  const auto half = body(shared_mesh(graded_box()), steel(), options);
+  half->initialize();
+  EXPECT_NEAR(half->time_step() / half->subcycling()->steps(), plain->time_step(), 1e-12 * plain->time_step());
+  options.time_step.maximum = 2.5 * plain->time_step();
+  const auto bounded = body(shared_mesh(graded_box()), steel(), options);
+  bounded->initialize();
+  EXPECT_LE(bounded->time_step(), *options.time_step.maximum);
 }
 
 }  // namespace
