@@ -88,8 +88,17 @@ class Placer {
 
   void place(const std::array<const Vec3*, block_points>& points, const std::array<Placement*, block_points>& places,
              std::size_t count) {
+    // Too many candidates: fewer points share the search. How a point is placed must not depend on its company, so only
+    // one that is alone with too many goes another way.
     if (!block_.find(elements_, boxes_, tree_, points, count)) {
-      for (std::size_t i = 0; i < count; ++i) place_one(*points[i], *places[i]);
+      if (count == 1) return place_one(*points[0], *places[0]);
+      std::array<const Vec3*, block_points> half_points;
+      std::array<Placement*, block_points> half_places;
+      for (const auto& [first, last] : {std::pair(std::size_t{0}, count / 2), std::pair(count / 2, count)}) {
+        std::copy(points.begin() + first, points.begin() + last, half_points.begin());
+        std::copy(places.begin() + first, places.begin() + last, half_places.begin());
+        place(half_points, half_places, last - first);
+      }
       return;
     }
     points_ = &points, places_ = &places;
