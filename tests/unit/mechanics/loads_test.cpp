@@ -53,7 +53,8 @@ Resultant resultant(const Mesh& mesh, const NodalState& nodes, const Load& load)
   const ElementGroups none = [&] {
     ElementGroups groups;
     for (std::size_t b = 0; b < mesh.blocks.size(); ++b)
-      groups.push_back(make_element_group(b, mesh.blocks[b], mesh.coordinates, {mesh.blocks[b].name, steel(), {}, {}}, {}));
+      groups.push_back(
+          make_element_group(b, mesh.blocks[b], mesh.coordinates, {mesh.blocks[b].name, steel(), {}, {}}, {}));
     return groups;
   }();
   NodalState copy = nodes;
