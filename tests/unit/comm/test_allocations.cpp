@@ -2,48 +2,11 @@
 // What runs in every step must not allocate.
 #include <gtest/gtest.h>
 
-#include <cstddef>
-#include <cstdlib>
-#include <new>
 #include <vector>
 
+#include "allocation_counter.hpp"
 #include "framework/comm/exchange_plan.hpp"
 #include "tests/support/test_communicator.hpp"
-
-namespace {
-
-long allocations = 0;
-
-void* counted(std::size_t bytes, std::size_t alignment) {
-  ++allocations;
-  return std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
-}
-
-}  // namespace
-
-void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept {
-  return counted(bytes, alignof(std::max_align_t));
-}
-void* operator new(std::size_t bytes) {
-  if (void* place = counted(bytes, alignof(std::max_align_t))) return place;
-  throw std::bad_alloc();
-}
-void* operator new(std::size_t bytes, std::align_val_t alignment) {
-  if (void* place = counted(bytes, static_cast<std::size_t>(alignment))) return place;
-  throw std::bad_alloc();
-}
-void operator delete(void* place) noexcept {
-  std::free(place);
-}
-void operator delete(void* place, std::size_t) noexcept {
-  std::free(place);
-}
-void operator delete(void* place, std::align_val_t) noexcept {
-  std::free(place);
-}
-void operator delete(void* place, std::size_t, std::align_val_t) noexcept {
-  std::free(place);
-}
 
 namespace tenon {
 namespace {
@@ -70,9 +33,9 @@ TEST(Allocations, RunsOfPlansAndSumsDoNotAllocate) {
     comm.sum(std::int64_t{1});
   };
   step();
-  const long before = allocations;
+  const std::int64_t before = testing::allocations();
   for (int repeat = 0; repeat < 5; ++repeat) step();
-  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(testing::allocations(), before);
   EXPECT_GT(before, 0);
 }
 
