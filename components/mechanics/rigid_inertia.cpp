@@ -74,7 +74,7 @@ void for_mass_points(const ElementGroup& group, LocalIndex element, std::span<co
     const std::size_t a = i % 3, b = i / 3 % 3, c = i / 9;
     const Vec3 xi{place[a], place[b], place[c]};
     std::array<double, 8> hex{};
-    std::array<double, max_element_nodes> shape{};
+    std::array<double, max_linear_nodes> shape{};
     shape_values(ElementKind::hex8, xi, hex);
     for (std::size_t k = 0; k < 8; ++k) shape[static_cast<std::size_t>(corner[k])] += hex[k];
     const double volume = weight[a] * weight[b] * weight[c] * jacobian_determinant(ElementKind::hex8, x, xi);

@@ -148,9 +148,9 @@ void ConductionMatrix::scatter(std::size_t place, const ConductionBatch& links, 
 
 void ConductionMatrix::note_eigenvalues(const ElementTable& table, const ConductionBatch& links, LocalIndex block,
                                         LocalIndex first, LocalIndex count, std::size_t first_of_all) {
-  double capacity[max_element_nodes][lanes], bound[lanes];
+  double capacity[max_linear_nodes][lanes], bound[lanes];
   for (LocalIndex l = 0; l < lanes; ++l)
-    for (std::size_t a = 0; a < max_element_nodes; ++a)
+    for (std::size_t a = 0; a < max_linear_nodes; ++a)
       capacity[a][l] = capacity_[first_of_all + static_cast<std::size_t>(std::min(l, count - 1))][a];
   eigenvalue_bound(table, links, capacity, bound);
   for (LocalIndex l = 0; l < count; ++l)

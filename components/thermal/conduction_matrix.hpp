@@ -43,8 +43,8 @@ class ConductionMatrix {
     LocalIndex block = no_index, element = no_index;
   };
   const Stiffest& stiffest() const { return stiffest_; }
-  /// Lumped capacity of each element at its nodes, J/K: [element of all blocks][max_element_nodes].
-  void bound_with(std::vector<std::array<double, max_element_nodes>> capacity) { capacity_ = std::move(capacity); }
+  /// Lumped capacity of each element at its nodes, J/K: [element of all blocks][max_linear_nodes].
+  void bound_with(std::vector<std::array<double, max_linear_nodes>> capacity) { capacity_ = std::move(capacity); }
 
   const ElementTable& table(std::size_t block) const { return tables_[block]; }
   /// Row of each local node; no_index for ghosts.
@@ -83,7 +83,7 @@ class ConductionMatrix {
   std::vector<LocalIndex> row_of_node_;                          // no_index for ghosts
   std::vector<LocalIndex> places_;                               // of K_ab, then K_ba, for each pair of each element
   std::vector<std::size_t> first_place_;                         // of blocks
-  std::vector<std::array<double, max_element_nodes>> capacity_;  // of elements
+  std::vector<std::array<double, max_linear_nodes>> capacity_;  // of elements
   Stiffest stiffest_;
 };
 

@@ -16,7 +16,7 @@ struct alignas(64) Lane {
 };
 
 /// dx_c/dxi_d of each lane.
-void jacobian(const ElementTable& table, const std::array<Vec3, max_element_nodes>& gradient,
+void jacobian(const ElementTable& table, const std::array<Vec3, max_linear_nodes>& gradient,
               const CornerBatch& corners, Lane (&j)[3][3]) {
   for (int c = 0; c < 3; ++c)
     for (int d = 0; d < 3; ++d) {
@@ -67,7 +67,7 @@ void integrate(const ElementTable& table, const CornerBatch& corners, Conduction
   for (int l = 0; l < lanes; ++l) result.least_jacobian[l] = std::numeric_limits<double>::infinity();
 
   Lane j[3][3], cof[3][3], det, factor;
-  Lane b[max_element_nodes][3];  // det times the gradient of N_a in space
+  Lane b[max_linear_nodes][3];  // det times the gradient of N_a in space
   Lane q_of[3];                  // the flux that it drives
   for (std::size_t q = 0; q < static_cast<std::size_t>(table.points); ++q) {
     jacobian(table, table.gradient[q], corners, j);
@@ -114,12 +114,12 @@ void conduction(const ElementTable& table, const CornerBatch& corners, const std
 }
 
 void eigenvalue_bound(const ElementTable& table, const ConductionBatch& links,
-                      const double (&capacity)[max_element_nodes][lanes], double (&bound)[lanes]) {
+                      const double (&capacity)[max_linear_nodes][lanes], double (&bound)[lanes]) {
   constexpr int squarings = 7;
   const int n = table.nodes;
   // S = C^-1/2 K C^-1/2 has the eigenvalues of C^-1 K.
-  Lane s[max_element_nodes][max_element_nodes] = {}, square[max_element_nodes][max_element_nodes];
-  Lane root[max_element_nodes];
+  Lane s[max_linear_nodes][max_linear_nodes] = {}, square[max_linear_nodes][max_linear_nodes];
+  Lane root[max_linear_nodes];
   for (int i = 0; i < n; ++i)
     for (int l = 0; l < lanes; ++l) root[i].v[l] = 1 / std::sqrt(capacity[i][l]);
   for (int i = 0, pair = 0; i < n; ++i)
@@ -158,7 +158,7 @@ void eigenvalue_bound(const ElementTable& table, const ConductionBatch& links,
 
 void nodal_volumes(ElementKind kind, std::span<const Vec3> corners, std::span<double> volumes) {
   std::ranges::fill(volumes, 0.0);
-  std::array<double, max_element_nodes> shape{};
+  std::array<double, max_linear_nodes> shape{};
   for (const QuadraturePoint& point : quadrature(kind)) {
     shape_values(kind, point.xi, shape);
     const double volume = point.weight * jacobian_determinant(kind, corners, point.xi);
@@ -172,8 +172,8 @@ namespace {
 template <typename Use>
 void integrate_side(std::span<const Vec3> corners, const Use& use) {
   const ElementKind kind = corners.size() == 3 ? ElementKind::tri3 : ElementKind::quad4;
-  std::array<double, max_element_nodes> shape{};
-  std::array<Vec3, max_element_nodes> gradient{};
+  std::array<double, max_linear_nodes> shape{};
+  std::array<Vec3, max_linear_nodes> gradient{};
   for (const QuadraturePoint& point : quadrature(kind)) {
     shape_values(kind, point.xi, shape);
     shape_gradients(kind, point.xi, gradient);

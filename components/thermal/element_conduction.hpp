@@ -11,7 +11,7 @@
 
 namespace tenon::thermal {
 
-inline constexpr int max_pairs = max_element_nodes * (max_element_nodes - 1) / 2;
+inline constexpr int max_pairs = max_linear_nodes * (max_linear_nodes - 1) / 2;
 
 /// Shape functions of a kind at its quadrature points. A tet4 has a constant gradient, so one point is enough for
 /// conduction.
@@ -20,14 +20,14 @@ struct ElementTable {
   ElementKind kind;
   int nodes, pairs;
   int points = 0;
-  std::array<double, max_element_nodes> weight{};
-  std::array<std::array<Vec3, max_element_nodes>, max_element_nodes> gradient{};  ///< dN_a/dxi at each point
-  std::array<Vec3, max_element_nodes> centre_gradient{};
+  std::array<double, max_linear_nodes> weight{};
+  std::array<std::array<Vec3, max_linear_nodes>, max_linear_nodes> gradient{};  ///< dN_a/dxi at each point
+  std::array<Vec3, max_linear_nodes> centre_gradient{};
 };
 
 /// Node positions (m): [node][direction][lane].
 struct CornerBatch {
-  alignas(64) double x[max_element_nodes][3][lanes];
+  alignas(64) double x[max_linear_nodes][3][lanes];
 };
 
 /// Links between the nodes of each element.
@@ -49,7 +49,7 @@ void conduction(const ElementTable& table, const CornerBatch& corners, const std
 /// 128th power, at most 8^(1/128) = 1.6 % too high. `capacity` (J/K): [node][lane], lumped. The greatest eigenvalue of
 /// a mesh is not above that of its elements [HPT79].
 void eigenvalue_bound(const ElementTable& table, const ConductionBatch& links,
-                      const double (&capacity)[max_element_nodes][lanes], double (&bound)[lanes]);
+                      const double (&capacity)[max_linear_nodes][lanes], double (&bound)[lanes]);
 
 /// Volume of an element shared out to its nodes: integrals of N_a, m^3.
 void nodal_volumes(ElementKind kind, std::span<const Vec3> corners, std::span<double> volumes);

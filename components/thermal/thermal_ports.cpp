@@ -29,8 +29,8 @@ std::vector<ImportPort> Thermal::imports() {
 
 // -k grad T at the centre of each element.
 void Thermal::read_heat_flux(std::span<double> out) const {
-  std::array<Vec3, max_element_nodes> corners;
-  std::array<double, max_element_nodes> values{};
+  std::array<Vec3, max_linear_nodes> corners;
+  std::array<double, max_linear_nodes> values{};
   std::size_t place = 0;
   for (std::size_t b = 0; b < mesh_->blocks.size(); ++b) {
     const ElementBlock& block = mesh_->blocks[b];

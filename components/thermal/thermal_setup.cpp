@@ -69,9 +69,9 @@ thermal::HeatContent Thermal::make_content(const std::vector<std::map<LocalIndex
 
 // Elements add to their nodes in ascending order. Capacity is that of the reference configuration: mass is kept.
 void Thermal::make_capacity() {
-  std::array<Vec3, max_element_nodes> corners;
-  std::array<double, max_element_nodes> volumes{};
-  std::vector<std::array<double, max_element_nodes>> of_elements;
+  std::array<Vec3, max_linear_nodes> corners;
+  std::array<double, max_linear_nodes> volumes{};
+  std::vector<std::array<double, max_linear_nodes>> of_elements;
   const bool linear = std::ranges::all_of(
       options_.blocks, [](const ThermalBlock& m) { return !m.specific_heat_over_temperature && m.latent_heat == 0; });
   std::vector<std::map<LocalIndex, double>> masses(linear ? 0 : capacity_.size());
@@ -84,7 +84,7 @@ void Thermal::make_capacity() {
       for (std::size_t a = 0; a < nodes.size(); ++a) corners[a] = coordinates_[static_cast<std::size_t>(nodes[a])];
       thermal::nodal_volumes(block.kind, std::span(corners).first(nodes.size()),
                              std::span(volumes).first(nodes.size()));
-      std::array<double, max_element_nodes> mine{};
+      std::array<double, max_linear_nodes> mine{};
       for (std::size_t a = 0; a < nodes.size(); ++a) {
         mine[a] = per_volume * volumes[a];
         const LocalIndex row = matrix_.row_of_node()[static_cast<std::size_t>(nodes[a])];
@@ -106,8 +106,8 @@ void Thermal::make_loads() {
     convection_loads_.push_back({thermal::Surface(*mesh_, c.side_set), c.coefficient, c.ambient});
   for (const Radiation& r : options_.radiation)
     radiation_loads_.push_back({thermal::Surface(*mesh_, r.side_set), r.emissivity, r.ambient});
-  std::array<Vec3, max_element_nodes> corners;
-  std::array<double, max_element_nodes> volumes{};
+  std::array<Vec3, max_linear_nodes> corners;
+  std::array<double, max_linear_nodes> volumes{};
   for (const HeatSource& s : options_.sources) {
     const ElementBlock& block = block_named(*mesh_, s.block);
     std::map<LocalIndex, double> volume_of_row;

@@ -10,15 +10,16 @@
 
 namespace tenon {
 
-enum class ElementKind : std::uint8_t { hex8, tet4, wedge6, pyramid5, quad4, tri3 };
-inline constexpr int element_kinds = 6;
-inline constexpr int max_element_nodes = 8;
+enum class ElementKind : std::uint8_t { hex8, tet4, wedge6, pyramid5, quad4, tri3, hex20, tet10 };
+inline constexpr int element_kinds = 8;
+inline constexpr int max_element_nodes = 20;
+inline constexpr int max_linear_nodes = 8;  ///< of elements with nodes at their corners only
 inline constexpr int max_sides = 6;
 inline constexpr int max_side_nodes = 4;
 
 /// Node order is that of VTK and Exodus; side order that of Exodus (0-based), with nodes ordered so that the
 /// right-hand normal points out. The sides of quad4 and tri3 are first the two faces (1: right-hand normal,
-/// 2: the reverse), then the edges, as in Exodus shells.
+/// 2: the reverse), then the edges, as in Exodus shells. The sides of hex20 and tet10 list their corners only.
 struct Topology {
   ElementKind kind;
   std::string_view name;  ///< "hex8"

@@ -86,9 +86,9 @@ TEST(ElementConduction, EigenvalueBoundIsAboveAndClose) {
   for (const ElementKind kind : solids) {
     const std::vector<Vec3> x = distorted(kind);
     const One one(kind, x, 7.0);
-    std::array<double, max_element_nodes> volumes{};
+    std::array<double, max_linear_nodes> volumes{};
     nodal_volumes(kind, x, std::span(volumes).first(x.size()));
-    double capacity[max_element_nodes][lanes] = {}, bound[lanes];
+    double capacity[max_linear_nodes][lanes] = {}, bound[lanes];
     Eigen::MatrixXd s = one.matrix();
     for (int i = 0; i < one.table.nodes; ++i)
       for (int j = 0; j < one.table.nodes; ++j)
