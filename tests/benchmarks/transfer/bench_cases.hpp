@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Meshes, points and fields of the transfer benchmarks. Every number comes from splitmix64, so any program can repeat
+// them.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "framework/mesh/generators.hpp"
+#include "framework/mesh/mesh.hpp"
+#include "transfer/grid_transfer.hpp"
+
+namespace tenon::bench {
+
+/// Points that receive values: the nodes of a mesh, or points alone.
+struct Targets {
+  std::string name;
+  std::shared_ptr<const Mesh> mesh;
+  std::vector<Vec3> points;  ///< of all local nodes, m
+  transfer::Grid grid() const { return {mesh.get(), points, Location::node}; }
+  GlobalId count() const { return mesh->global_nodes; }
+};
+
+/// Collective. Unit cube of n^3 hexahedra, interior nodes moved at random by up to 0.2 h in each direction.
+std::shared_ptr<const Mesh> cube(int n, std::uint64_t seed, double grading = 1, bool tetrahedra = false);
+Targets nodes_of(std::string name, std::shared_ptr<const Mesh> mesh);
+/// Collective. Component c of point q is u(seed, q, c).
+Targets random_points(GlobalId count, std::uint64_t seed);
+
+/// sin(2 pi x) cos(3 pi y) e^z, and 1 + 2 x - 3 y + z / 2.
+double smooth_field(const Vec3& x);
+double linear_field(const Vec3& x);
+using Function = double (*)(const Vec3&);
+std::vector<double> sampled(std::span<const Vec3> points, Function f);
+
+/// Of values at owned nodes.
+struct Errors {
+  double greatest = 0, rms = 0;
+};
+/// Collective.
+Errors errors_of(const Targets& targets, std::span<const double> values, Function f);
+
+}  // namespace tenon::bench
