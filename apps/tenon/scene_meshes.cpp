@@ -9,8 +9,8 @@
 
 #include "framework/mesh/generators.hpp"
 #include "framework/mesh/mesh.hpp"
-#include "framework/mesh/readers.hpp"
 #include "framework/mesh/renumber.hpp"
+#include "framework/mesh_files/readers.hpp"
 
 namespace tenon {
 

@@ -5,7 +5,7 @@
 #include <exception>
 
 #include "framework/base/error.hpp"
-#include "framework/mesh/readers.hpp"
+#include "framework/mesh_files/readers.hpp"
 
 int main(int argc, char** argv) {
   if (argc != 3) {

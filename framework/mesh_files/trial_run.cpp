@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Runs a reader in a child process first, for libraries that can crash or hang on corrupt files.
-#include "framework/mesh/trial_run.hpp"
+#include "framework/mesh_files/trial_run.hpp"
 
 #include <fcntl.h>
 #include <sys/resource.h>
@@ -14,7 +14,7 @@
 #include <cstring>
 
 #include "framework/base/error.hpp"
-#include "framework/mesh/read_support.hpp"
+#include "framework/mesh_files/read_support.hpp"
 
 namespace tenon::mesh_file {
 namespace {

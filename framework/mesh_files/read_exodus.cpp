@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <limits>
 
-#include "framework/mesh/netcdf_file.hpp"
-#include "framework/mesh/read_support.hpp"
-#include "framework/mesh/readers.hpp"
-#include "framework/mesh/trial_run.hpp"
+#include "framework/mesh_files/netcdf_file.hpp"
+#include "framework/mesh_files/read_support.hpp"
+#include "framework/mesh_files/readers.hpp"
+#include "framework/mesh_files/trial_run.hpp"
 
 namespace tenon {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A place in the text or bytes of a Gmsh file, which reads one checked value after another.
-#include "framework/mesh/gmsh_cursor.hpp"
+#include "framework/mesh_files/gmsh_cursor.hpp"
 
 #include <algorithm>
 #include <charconv>
 #include <cstdlib>
 
-#include "framework/mesh/read_support.hpp"
+#include "framework/mesh_files/read_support.hpp"
 
 namespace tenon::mesh_file {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Gmsh files that are refused, and what the message says.
-#include "tests/unit/mesh_readers/sample_files.hpp"
+#include "tests/unit/mesh_files/sample_files.hpp"
 
 namespace tenon::testing {
 namespace {

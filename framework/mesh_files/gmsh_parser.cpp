@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Parser of the Gmsh formats MSH 2.x, 4.0 and 4.1. Reference: [GR09], the manual's "MSH file format" and its legacy
 // versions.
-#include "framework/mesh/gmsh_parser.hpp"
+#include "framework/mesh_files/gmsh_parser.hpp"
 
 #include <algorithm>
 #include <set>
 
-#include "framework/mesh/gmsh_cursor.hpp"
-#include "framework/mesh/read_support.hpp"
 #include "framework/mesh/topology.hpp"
+#include "framework/mesh_files/gmsh_cursor.hpp"
+#include "framework/mesh_files/read_support.hpp"
 
 namespace tenon::mesh_file {
 namespace {

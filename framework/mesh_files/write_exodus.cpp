@@ -9,8 +9,8 @@
 #include <set>
 
 #include "framework/base/error.hpp"
-#include "framework/mesh/read_support.hpp"
-#include "framework/mesh/readers.hpp"
+#include "framework/mesh_files/read_support.hpp"
+#include "framework/mesh_files/readers.hpp"
 
 namespace tenon {
 namespace {

@@ -3,7 +3,7 @@
 #include <vtk_exodusII.h>
 #include <vtk_netcdf.h>
 
-#include "tests/unit/mesh_readers/sample_files.hpp"
+#include "tests/unit/mesh_files/sample_files.hpp"
 
 namespace tenon::testing {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Validates the header of a netCDF classic file before the library sees it.
-#include "framework/mesh/netcdf_classic.hpp"
+#include "framework/mesh_files/netcdf_classic.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 #include <set>
 #include <vector>
 
-#include "framework/mesh/read_support.hpp"
+#include "framework/mesh_files/read_support.hpp"
 
 namespace tenon::mesh_file {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Gmsh files: node sets, side sets, and groups that lie on nothing.
-#include "tests/unit/mesh_readers/sample_files.hpp"
+#include "tests/unit/mesh_files/sample_files.hpp"
 
 namespace tenon::testing {
 namespace {

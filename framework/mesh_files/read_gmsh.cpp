@@ -7,10 +7,10 @@
 #include <set>
 #include <tuple>
 
-#include "framework/mesh/gmsh_parser.hpp"
-#include "framework/mesh/gmsh_sets.hpp"
-#include "framework/mesh/read_support.hpp"
-#include "framework/mesh/readers.hpp"
+#include "framework/mesh_files/gmsh_parser.hpp"
+#include "framework/mesh_files/gmsh_sets.hpp"
+#include "framework/mesh_files/read_support.hpp"
+#include "framework/mesh_files/readers.hpp"
 
 namespace tenon {
 namespace {

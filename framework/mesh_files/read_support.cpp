@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the mesh readers share: refusals, access to the file, and the last clean-up of a mesh.
-#include "framework/mesh/read_support.hpp"
+#include "framework/mesh_files/read_support.hpp"
 
 #include <algorithm>
 #include <cerrno>

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <random>
 
-#include "tests/unit/mesh_readers/sample_files.hpp"
+#include "tests/unit/mesh_files/sample_files.hpp"
 
 namespace tenon::testing {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Chooses the reader of a mesh file by its first bytes, and explains what a file is that none can read.
-#include "framework/mesh/readers.hpp"
+#include "framework/mesh_files/readers.hpp"
 
 #include <algorithm>
 #include <filesystem>
 
-#include "framework/mesh/netcdf_file.hpp"
-#include "framework/mesh/read_support.hpp"
+#include "framework/mesh_files/netcdf_file.hpp"
+#include "framework/mesh_files/read_support.hpp"
 
 namespace tenon {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Finds the side of an element on which a boundary element of a Gmsh file lies.
-#include "framework/mesh/gmsh_sets.hpp"
+#include "framework/mesh_files/gmsh_sets.hpp"
 
 #include <algorithm>
 #include <tuple>

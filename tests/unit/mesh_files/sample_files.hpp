@@ -12,7 +12,7 @@
 #include <string>
 
 #include "framework/base/error.hpp"
-#include "framework/mesh/readers.hpp"
+#include "framework/mesh_files/readers.hpp"
 
 namespace tenon::testing {
 

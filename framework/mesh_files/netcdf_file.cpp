@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A netCDF file (classic or HDF5) open for reading, with every access checked.
-#include "framework/mesh/netcdf_file.hpp"
+#include "framework/mesh_files/netcdf_file.hpp"
 
 #include <vtk_netcdf.h>
 
 #include <array>
 #include <filesystem>
 
-#include "framework/mesh/netcdf_classic.hpp"
-#include "framework/mesh/read_support.hpp"
+#include "framework/mesh_files/netcdf_classic.hpp"
+#include "framework/mesh_files/read_support.hpp"
 
 namespace tenon::mesh_file {
 namespace {
