@@ -54,6 +54,15 @@ Targets random_points(GlobalId count, std::uint64_t seed) {
   return nodes_of("random points", over_ranks(std::move(data)));
 }
 
+std::unique_ptr<transfer::GridTransfer> interpolation(const Mesh& source, std::span<const Vec3> coordinates,
+                                                      const Targets& targets,
+                                                      const transfer::TransferOptions& options) {
+  FieldDescription field;
+  field.name = "field";
+  return std::make_unique<transfer::GridTransfer>(transfer::Grid{&source, coordinates, Location::node}, targets.grid(),
+                                                  field, options, "bench");
+}
+
 double smooth_field(const Vec3& x) {
   using std::numbers::pi;
   return std::sin(2 * pi * x[0]) * std::cos(3 * pi * x[1]) * std::exp(x[2]);

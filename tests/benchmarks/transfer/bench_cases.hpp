@@ -29,6 +29,11 @@ Targets nodes_of(std::string name, std::shared_ptr<const Mesh> mesh);
 /// Collective. Component c of point q is u(seed, q, c).
 Targets random_points(GlobalId count, std::uint64_t seed);
 
+/// Collective. The map of point values.
+std::unique_ptr<transfer::GridTransfer> interpolation(const Mesh& source, std::span<const Vec3> coordinates,
+                                                      const Targets& targets,
+                                                      const transfer::TransferOptions& options = {});
+
 /// sin(2 pi x) cos(3 pi y) e^z, and 1 + 2 x - 3 y + z / 2.
 double smooth_field(const Vec3& x);
 double linear_field(const Vec3& x);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Grid transfer: set-up, application, memory and errors, with VTK's own probe in the same run, turn by turn.
-//   transfer_bench [uniform ...] [--large] [--repeats N] [--no-probe] [--no-vtk]
+//   transfer_bench [uniform|outside|graded|moving ...] [--large] [--repeats N] [--no-probe] [--no-vtk]
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
+#include "hard_cases.hpp"
 #include "work_case.hpp"
 
 namespace tenon::bench {
@@ -17,17 +18,21 @@ struct Arguments {
 };
 
 /// n^3 hexahedra to the nodes of about (1.25 n)^3, and to a million random points.
-void uniform(const Arguments& arguments) {
-  const int n = arguments.large ? 100 : 64, m = arguments.large ? 126 : 80;
+void uniform(int n, int m, const WorkOptions& options) {
   const auto source = cube(n, 1);
   const std::string title = fmt::format("{}^3 distorted hexahedra", n);
-  run_work_case(title, *source, nodes_of(fmt::format("nodes of {}^3", m), cube(m, 2)), arguments.work);
-  run_work_case(title, *source, random_points(1'000'000, 3), arguments.work);
+  run_work_case(title, *source, nodes_of(fmt::format("nodes of {}^3", m), cube(m, 2)), options);
+  run_work_case(title, *source, random_points(1'000'000, 3), options);
 }
 
 void run(const Arguments& arguments) {
-  for (const std::string& part : arguments.parts)
-    if (part == "uniform") uniform(arguments);
+  const int n = arguments.large ? 100 : 64, m = arguments.large ? 126 : 80, repeats = arguments.work.repeats;
+  for (const std::string& part : arguments.parts) {
+    if (part == "uniform") uniform(n, m, arguments.work);
+    if (part == "outside") run_pushed_out();
+    if (part == "graded") run_graded(n, m, repeats);
+    if (part == "moving") run_moving(n, m, repeats);
+  }
 }
 
 }  // namespace
@@ -38,7 +43,8 @@ int main(int argc, char** argv) {
   tenon::MpiEnvironment environment(argc, argv);
   tenon::bench::Arguments arguments;
   CLI::App app("Times grid transfer.");
-  app.add_option("part", arguments.parts, "uniform")->check(CLI::IsMember({"uniform"}));
+  app.add_option("part", arguments.parts, "what to time")
+      ->check(CLI::IsMember({"uniform", "outside", "graded", "moving"}));
   app.add_flag("--large", arguments.large, "100^3 and 126^3 instead of 64^3 and 80^3");
   app.add_option("--repeats", arguments.work.repeats)->check(CLI::PositiveNumber);
   app.add_flag("!--no-probe", arguments.work.probe, "leave VTK's probe filter out");

@@ -16,12 +16,6 @@ using transfer::GridTransfer;
 
 constexpr int applies = 10;  ///< in one repeat
 
-FieldDescription point_value() {
-  FieldDescription field;
-  field.name = "field";
-  return field;
-}
-
 std::string line(const Times& times, double targets, int each = 1) {
   const double scale = 1e6 / (targets * each);
   return fmt::format("{:9.4f} {:9.4f} {:9.4f}", times.median() * scale, times.best() * scale,
@@ -45,10 +39,7 @@ class Work {
   void set_up() {
     for (int i = 0; i < options_.repeats; ++i) {
       map_.reset();
-      map_ = set_up_.take(comm_, [&] {
-        return std::make_unique<GridTransfer>(transfer::Grid{&source_, source_.coordinates, Location::node},
-                                              targets_.grid(), point_value(), transfer::TransferOptions{}, "bench");
-      });
+      map_ = set_up_.take(comm_, [&] { return interpolation(source_, source_.coordinates, targets_); });
       if (!rival_) continue;
       rival_map_ = {};
       rival_map_ = locate_.take(comm_, [&] { return rival_->locate(targets_.points); });
