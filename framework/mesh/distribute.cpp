@@ -9,6 +9,7 @@
 
 #include "framework/mesh/dual_graph.hpp"
 #include "framework/mesh/facets.hpp"
+#include "framework/mesh/halo.hpp"
 #include "framework/mesh/mesh.hpp"
 
 namespace tenon {
@@ -230,34 +231,6 @@ void settle(Mesh& mesh, std::vector<Arrived>&& arrived) {
   }
 }
 
-/// Collective. Where the ghosts come from: each owner says at which place of its array a node stands.
-void connect_halo(const Communicator& comm, const std::string& name, Mesh& mesh) {
-  std::vector<int> owner;
-  std::vector<GlobalId> id;
-  std::vector<LocalIndex> into;
-  for (LocalIndex n = 0; n < mesh.nodes(); ++n) {
-    const auto i = static_cast<std::size_t>(n);
-    if (mesh.owns_node(n)) {
-      mesh.owned_nodes.push_back(n);
-      continue;
-    }
-    owner.push_back(mesh.node_owners[i]);
-    id.push_back(mesh.node_ids[i]);
-    into.push_back(n);
-  }
-  const ExchangePlan question = ExchangePlan::to_ranks(comm, owner, name + " set-up");
-  std::vector<GlobalId> asked(static_cast<std::size_t>(question.received()));
-  question.forward(std::span<const GlobalId>(id), std::span(asked));
-  std::vector<LocalIndex> answer;
-  for (const GlobalId a : asked) {
-    const auto place = std::lower_bound(mesh.node_ids.begin(), mesh.node_ids.end(), a);
-    answer.push_back(static_cast<LocalIndex>(place - mesh.node_ids.begin()));
-  }
-  std::vector<LocalIndex> index(id.size());
-  question.reverse(std::span<const LocalIndex>(answer), std::span(index));
-  mesh.node_halo = ExchangePlan::from_owners(comm, owner, index, into, name + " halo");
-}
-
 /// Names and sizes, the same on every rank.
 void describe(const MeshSummary& summary, Mesh& mesh) {
   mesh.source = summary.source;
@@ -293,7 +266,7 @@ std::shared_ptr<const Mesh> distribute(const Communicator& comm, MeshData&& mesh
   pull_nodes(comm, data, owners, options.name + " set-up", *result);
   data = {};
   settle(*result, std::move(arrived));
-  connect_halo(comm, options.name, *result);
+  connect_halo(*result, options.name);
   return result;
 }
 

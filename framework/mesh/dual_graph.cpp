@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "framework/mesh/facets.hpp"
+#include "framework/mesh/halo.hpp"
 
 namespace tenon {
 
@@ -82,9 +83,7 @@ std::vector<int> node_owners(const MeshData& mesh, const std::vector<int>& eleme
     const auto last = touching.begin() + static_cast<std::ptrdiff_t>(end[n]);
     std::sort(begin, last);
     const auto distinct = static_cast<std::size_t>(std::unique(begin, last) - begin);
-    // Fibonacci hashing: neighbouring numbers scatter.
-    const std::uint64_t hash = (static_cast<std::uint64_t>(n) * 0x9E3779B97F4A7C15ULL) >> 32;
-    if (distinct > 0) owners[n] = begin[static_cast<std::ptrdiff_t>(hash % distinct)];
+    if (distinct > 0) owners[n] = node_owner(static_cast<GlobalId>(n), std::span<const int>(begin, distinct));
     begin = last;
   }
   return owners;
