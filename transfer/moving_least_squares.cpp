@@ -52,7 +52,6 @@ void fit_row(const Vec3& x, std::span<const NearPoint> near, bool all, const Fit
       terms[count++] = {p.id, weight[j], p.owner, p.at_owner};
     }
   head.terms = static_cast<std::int64_t>(count);
-  sort_by_source(std::span(terms).first(count));
   std::memcpy(result.data(), &head, sizeof head);
   std::memcpy(result.data() + sizeof head, terms.data(), count * sizeof(Term));
 }
@@ -128,13 +127,12 @@ Rows assemble(const Items& items, std::span<const Entry> arrived) {
   Rows rows;
   rows.terms.resize(arrived.size());
   std::vector<std::int64_t> next(begin.begin(), begin.end() - 1);
-  for (const Entry& e : arrived)
-    rows.terms[static_cast<std::size_t>(next[static_cast<std::size_t>(e.row)]++)] = e.term;
+  for (const Entry& e : arrived) rows.terms[static_cast<std::size_t>(next[static_cast<std::size_t>(e.row)]++)] = e.term;
   // Only owned items have terms, and they ascend, so their rows follow each other.
   for (const LocalIndex item : items.owned) {
     const auto i = static_cast<std::size_t>(item);
-    sort_by_source(std::span(rows.terms).subspan(static_cast<std::size_t>(begin[i]),
-                                                 static_cast<std::size_t>(begin[i + 1] - begin[i])));
+    sort_by_source(std::span(rows.terms)
+                       .subspan(static_cast<std::size_t>(begin[i]), static_cast<std::size_t>(begin[i + 1] - begin[i])));
     rows.begin.push_back(begin[i + 1]);
   }
   return rows;

@@ -30,8 +30,8 @@ struct FittedPoint {
 /// Collective. A row for each of `targets` (this rank's; any points): weights of the nearest items of the source, which
 /// add up to 1 to an ulp and reproduce linear fields wherever the items around extend in all directions.
 /// `cloud`: the places of the owned items, in order of `items.owned`. A target at an item does in general not receive
-/// just that item's value. Terms ascend by source id; the same bits on any ranks. Throws Error(usage) for options out of
-/// range, Error(geometry) for an empty cloud or coordinates that are no places.
+/// just that item's value. Terms ascend by source id; the same bits on any ranks. Throws Error(usage) for options out
+/// of range, Error(geometry) for an empty cloud or coordinates that are no places.
 Rows moving_least_squares_rows(const Communicator& comm, const Items& items, std::span<const Vec3> cloud,
                                std::span<const Vec3> targets, const MovingLeastSquaresOptions& options,
                                const std::string& name, std::vector<FittedPoint>& fitted);

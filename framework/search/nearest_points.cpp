@@ -9,6 +9,7 @@
 #include <cstring>
 #include <limits>
 #include <optional>
+#include <tuple>
 
 #include "framework/search/distributed_search.hpp"
 
@@ -75,21 +76,12 @@ class LocalCloud {
   /// Calls visit(i, neighbours) for the points that have all of their `k` nearest within `reach`.
   template <typename Visit>
   void visit_complete(std::span<const Vec3> points, int k, double reach, Visit&& visit) const {
-    std::vector<PointTree::Neighbour> found;
     std::vector<NearPoint> near;
-    Vec3 last{};
-    double last_radius = infinity;
-    for (const LocalIndex i : order_along_curve(points)) {
-      // The neighbours of the last point are near this one too.
-      const Vec3& x = points[static_cast<std::size_t>(i)];
-      const double bound = (1 + 1e-12) * (last_radius + norm(x - last));
-      tree_.k_nearest(x, k, std::min(reach, bound), found);
-      if (found.size() < static_cast<std::size_t>(k)) continue;
-      last = x, last_radius = k > 0 ? std::sqrt(found.back().squared_distance) : infinity;
+    tree_.for_each_k_nearest(points, k, reach, [&](LocalIndex i, std::span<const PointTree::Neighbour> found) {
       near.clear();
       for (const PointTree::Neighbour& n : found) near.push_back({points_.data() + n.index, n.squared_distance});
       visit(static_cast<std::size_t>(i), std::span<const NearPoint>(near));
-    }
+    });
   }
 
  private:
@@ -107,7 +99,9 @@ double first_reach(const Communicator& comm, std::span<const CloudPoint> cloud, 
   std::vector<double> radii;
   const int at_most = static_cast<int>(std::min(static_cast<std::size_t>(k), cloud.size()));
   LocalCloud(cloud).visit_complete(some, at_most, infinity, [&](std::size_t, std::span<const NearPoint> near) {
-    radii.push_back(std::sqrt(near.back().squared_distance));
+    double squared = 0;
+    for (const NearPoint& n : near) squared = std::max(squared, n.squared_distance);
+    radii.push_back(std::sqrt(squared));
   });
   double median = 0;
   if (!radii.empty()) {
@@ -206,8 +200,12 @@ std::vector<Nearest> k_nearest(const Communicator& comm, std::span<const CloudPo
   for_each_with_nearest(
       comm, cloud, points, k, width * sizeof(Nearest), std::as_writable_bytes(std::span(all)),
       [](const Vec3&, std::span<const NearPoint> near, std::span<std::byte> result) {
-        std::vector<Nearest> mine(result.size() / sizeof(Nearest));
-        for (std::size_t j = 0; j < near.size(); ++j) mine[j] = {near[j].point->id, near[j].squared_distance};
+        std::vector<Nearest> mine;
+        for (const NearPoint& n : near) mine.push_back({n.point->id, n.squared_distance});
+        std::sort(mine.begin(), mine.end(), [](const Nearest& a, const Nearest& b) {
+          return std::tie(a.squared_distance, a.id) < std::tie(b.squared_distance, b.id);
+        });
+        mine.resize(result.size() / sizeof(Nearest));
         if (!mine.empty()) std::memcpy(result.data(), mine.data(), result.size());
       },
       name);

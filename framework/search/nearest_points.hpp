@@ -27,13 +27,13 @@ struct NearPoint {
   double squared_distance;  ///< m^2
 };
 
-/// Receives a point that asks, its neighbours in ascending order of (squared distance, id), and room for its result.
+/// Receives a point that asks, its neighbours in ascending order of their ids, and room for its result.
 using WithNeighbours = std::function<void(const Vec3&, std::span<const NearPoint>, std::span<std::byte>)>;
 
 /// Collective. For each of `points` of this rank, calls `work` with the k nearest of `cloud` (this rank's points; over
 /// all ranks, ids are unique), or with all if there are fewer, on the rank where they met; what it writes returns into
-/// the `bytes` bytes per point of `results`. Of equal distances, the smaller ids come first, so the neighbours and
-/// their order depend on nothing but the two sets. `work` may run more than once for a point and must not communicate.
+/// the `bytes` bytes per point of `results`. Of equal distances, the smaller ids are nearer, so the neighbours
+/// depend on nothing but the two sets. `work` may run more than once for a point and must not communicate.
 /// A cloud without any point gives every point no neighbours. Throws Error(geometry) for coordinates that are not
 /// finite or too great to be squared.
 void for_each_with_nearest(const Communicator& comm, std::span<const CloudPoint> cloud, std::span<const Vec3> points,
@@ -46,7 +46,7 @@ struct Nearest {
   double squared_distance = 0;
 };
 
-/// Collective. k neighbours of each point, one after the other, in the order above.
+/// Collective. k neighbours of each point, one after the other, in ascending order of (squared distance, id).
 std::vector<Nearest> k_nearest(const Communicator& comm, std::span<const CloudPoint> cloud,
                                std::span<const Vec3> points, int k, const std::string& name);
 
