@@ -23,12 +23,19 @@ void lattice(int n, Visit&& visit) {
       for (int i = 0; i < n; ++i) visit(i, j, k);
 }
 
+/// Visits all (i, j) of a lattice of n^2 cells.
+template <typename Visit>
+void flat_lattice(int n, Visit&& visit) {
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) visit(i, j);
+}
+
 /// A tetrahedron cut by planes parallel to its faces: upright tetrahedra, octahedra (four times their volume) and
 /// inverted tetrahedra, each by its centroid.
-void subdivide_tet(int n, std::vector<TabulatedPoint>& points) {
+void subdivide_tet(ElementKind kind, int n, std::vector<TabulatedPoint>& points) {
   const double cell = 1.0 / (6.0 * n * n * n);
   const auto at = [&](int i, int j, int k, double shift, double weight) {
-    points.push_back(tabulated(ElementKind::tet4, {(i + shift) / n, (j + shift) / n, (k + shift) / n}, weight));
+    points.push_back(tabulated(kind, {(i + shift) / n, (j + shift) / n, (k + shift) / n}, weight));
   };
   lattice(n, [&](int i, int j, int k) {
     const int level = i + j + k;
@@ -46,6 +53,17 @@ void subdivide_wedge(int n, std::vector<TabulatedPoint>& points) {
   lattice(n, [&](int i, int j, int k) {
     if (i + j <= n - 1) at(i, j, k, 1.0 / 3.0);
     if (i + j <= n - 2) at(i, j, k, 2.0 / 3.0);
+  });
+}
+
+void subdivide_tri(int n, std::vector<TabulatedPoint>& points) {
+  const double cell = 0.5 / (n * n);
+  const auto at = [&](int i, int j, double shift) {
+    points.push_back(tabulated(ElementKind::tri3, {(i + shift) / n, (j + shift) / n, 0}, cell));
+  };
+  flat_lattice(n, [&](int i, int j) {
+    if (i + j <= n - 1) at(i, j, 1.0 / 3.0);
+    if (i + j <= n - 2) at(i, j, 2.0 / 3.0);
   });
 }
 
@@ -72,7 +90,8 @@ std::vector<TabulatedPoint> subdivision_points(ElementKind kind, int n) {
   const double cell = 1.0 / n * (1.0 / n) * (1.0 / n);
   switch (kind) {
     case ElementKind::tet4:
-      subdivide_tet(n, points);
+    case ElementKind::tet10:
+      subdivide_tet(kind, n, points);
       break;
     case ElementKind::wedge6:
       subdivide_wedge(n, points);
@@ -80,21 +99,28 @@ std::vector<TabulatedPoint> subdivision_points(ElementKind kind, int n) {
     case ElementKind::pyramid5:
       subdivide_pyramid(n, points);
       break;
+    case ElementKind::tri3:
+      subdivide_tri(n, points);
+      break;
+    case ElementKind::quad4:
+      flat_lattice(n, [&](int i, int j) { points.push_back(tabulated(kind, {mid(i), mid(j), 0}, 4.0 / (n * n))); });
+      break;
     default:
       lattice(n, [&](int i, int j, int k) { points.push_back(tabulated(kind, {mid(i), mid(j), mid(k)}, 8 * cell)); });
   }
   return points;
 }
 
-double determinant(const TabulatedPoint& point, int nodes, const Corners& corners) {
+double measure(const TabulatedPoint& point, ElementKind kind, const Corners& corners) {
   Vec3 x_xi{}, x_eta{}, x_zeta{};
-  for (int n = 0; n < nodes; ++n) {
-    const auto a = static_cast<std::size_t>(n);
+  const auto nodes = static_cast<std::size_t>(topology(kind).nodes);
+  for (std::size_t a = 0; a < nodes; ++a) {
     x_xi = x_xi + point.gradient[a][0] * corners[a];
     x_eta = x_eta + point.gradient[a][1] * corners[a];
     x_zeta = x_zeta + point.gradient[a][2] * corners[a];
   }
-  return dot(cross(x_xi, x_eta), x_zeta);
+  const Vec3 normal = cross(x_xi, x_eta);
+  return topology(kind).dimension == 3 ? dot(normal, x_zeta) : norm(normal);
 }
 
 Vec3 position(const TabulatedPoint& point, int nodes, const Corners& corners) {
@@ -111,14 +137,13 @@ std::vector<double> item_volumes(const Mesh& mesh, std::span<const Vec3> coordin
   std::size_t item = 0;
   for (const ElementBlock& block : mesh.blocks) {
     const std::vector<TabulatedPoint> points = quadrature_points(block.kind);
-    const int nodes = topology(block.kind).nodes;
     for (LocalIndex e = 0; e < block.size(); ++e, ++item) {
       const Corners corners = corners_of(block, e, coordinates);
       const auto connectivity = block.nodes(e);
       std::array<double, max_nodes> share{};
       double volume = 0;
       for (const TabulatedPoint& point : points) {
-        const double w = point.weight * determinant(point, nodes, corners);
+        const double w = point.weight * measure(point, block.kind, corners);
         volume += w;
         for (std::size_t a = 0; a < connectivity.size(); ++a) share[a] += w * point.value[a];
       }

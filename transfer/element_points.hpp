@@ -15,23 +15,23 @@ namespace tenon::transfer {
 
 struct TabulatedPoint {
   Vec3 xi{};
-  double weight = 0;  ///< volume of the reference element that the point stands for
+  double weight = 0;  ///< volume (area) of the reference element that the point stands for
   std::array<double, max_nodes> value{};
   std::array<Vec3, max_nodes> gradient{};  ///< with respect to xi
 };
 
 /// The quadrature rule of an element kind.
 std::vector<TabulatedPoint> quadrature_points(ElementKind kind);
-/// Midpoints of about n^3 equal sub-cells of the reference element (solids).
+/// Midpoints of about n^3 (surfaces: n^2) equal sub-cells of the reference element.
 std::vector<TabulatedPoint> subdivision_points(ElementKind kind, int n);
 
-/// det(dx/dxi), m^3.
-double determinant(const TabulatedPoint& point, int nodes, const Corners& corners);
+/// Volume over that of the reference element, det(dx/dxi), m^3; of a surface its area, |dx/dxi x dx/deta|, m^2.
+double measure(const TabulatedPoint& point, ElementKind kind, const Corners& corners);
 /// x, m.
 Vec3 position(const TabulatedPoint& point, int nodes, const Corners& corners);
 
-/// Collective. Volume of every local item, m^3: of an element, or the integral of a node's shape function over all
-/// elements around it (the consistent mass matrix summed by rows).
+/// Collective. Volume of every local item, m^3 (area, m^2, of surfaces): of an element, or the integral of a node's
+/// shape function over all elements around it (the consistent mass matrix summed by rows).
 std::vector<double> item_volumes(const Mesh& mesh, std::span<const Vec3> coordinates, Location location);
 
 }  // namespace tenon::transfer

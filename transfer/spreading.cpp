@@ -48,7 +48,7 @@ class Spreader {
     double sum = 0;
     for (const TabulatedPoint& point : table) {
       places_.push_back(position(point, nodes, corners));
-      volumes_.push_back(point.weight * std::max(determinant(point, nodes, corners), 0.0));
+      volumes_.push_back(point.weight * std::max(measure(point, block.kind, corners), 0.0));
       sum += volumes_.back();
     }
     const bool by_node = source_.location == Location::node;
@@ -87,10 +87,10 @@ class Spreader {
     std::vector<TabulatedPoint>& rule = rules_[kind];
     if (rule.empty()) rule = quadrature_points(kind);
     std::array<double, max_nodes> part{};
-    const int nodes = topology(kind).nodes;
+    const auto nodes = static_cast<std::size_t>(topology(kind).nodes);
     for (const TabulatedPoint& point : rule) {
-      const double w = point.weight * determinant(point, nodes, corners);
-      for (std::size_t a = 0; a < static_cast<std::size_t>(nodes); ++a) part[a] += w * point.value[a];
+      const double w = point.weight * measure(point, kind, corners);
+      for (std::size_t a = 0; a < nodes; ++a) part[a] += w * point.value[a];
     }
     return part;
   }
