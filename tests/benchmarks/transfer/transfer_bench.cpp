@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Grid transfer: set-up, application, memory and errors, with VTK's own probe in the same run, turn by turn.
-//   transfer_bench [uniform|outside|graded|moving ...] [--large] [--repeats N] [--no-probe] [--no-vtk]
+//   transfer_bench [uniform|outside|graded|moving|methods ...] [--large] [--repeats N] [--no-probe] [--no-vtk]
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
 #include "hard_cases.hpp"
 #include "work_case.hpp"
+#include "work_error.hpp"
 
 namespace tenon::bench {
 
@@ -14,6 +15,8 @@ namespace {
 struct Arguments {
   std::vector<std::string> parts{"uniform"};
   bool large = false;
+  int finest = 64;
+  std::string csv = "transfer.csv";
   WorkOptions work;
 };
 
@@ -32,6 +35,7 @@ void run(const Arguments& arguments) {
     if (part == "outside") run_pushed_out();
     if (part == "graded") run_graded(n, m, repeats);
     if (part == "moving") run_moving(n, m, repeats);
+    if (part == "methods") run_work_error(arguments.finest, arguments.csv);
   }
 }
 
@@ -44,11 +48,13 @@ int main(int argc, char** argv) {
   tenon::bench::Arguments arguments;
   CLI::App app("Times grid transfer.");
   app.add_option("part", arguments.parts, "what to time")
-      ->check(CLI::IsMember({"uniform", "outside", "graded", "moving"}));
+      ->check(CLI::IsMember({"uniform", "outside", "graded", "moving", "methods"}));
   app.add_flag("--large", arguments.large, "100^3 and 126^3 instead of 64^3 and 80^3");
   app.add_option("--repeats", arguments.work.repeats)->check(CLI::PositiveNumber);
   app.add_flag("!--no-probe", arguments.work.probe, "leave VTK's probe filter out");
   app.add_flag("!--no-vtk", arguments.work.vtk, "leave VTK out");
+  app.add_option("--finest", arguments.finest, "methods: the last of 8, 16 ... elements along a side");
+  app.add_option("--csv", arguments.csv, "methods: file to write");
   CLI11_PARSE(app, argc, argv);
   tenon::bench::run(arguments);
   return 0;

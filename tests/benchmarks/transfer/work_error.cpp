@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "work_error.hpp"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <fstream>
+#include <functional>
+
+#include "bench_cases.hpp"
+#include "bench_clock.hpp"
+#include "vtk_rival.hpp"
+
+namespace tenon::bench {
+
+namespace {
+
+using transfer::Grid;
+using transfer::GridTransfer;
+using transfer::Method;
+using transfer::TransferOptions;
+
+constexpr double least_seconds = 0.3;  ///< that each figure is repeated for
+constexpr int least_repeats = 3;
+constexpr double enough_seconds = 5;  ///< after which even fewer repeats will do
+
+/// One way to bring values over, on one pair of meshes.
+struct Trial {
+  Targets targets;
+  std::function<void()> set_up;  ///< none: every application does all
+  std::function<void(std::span<double> result)> apply;
+};
+
+struct Way {
+  std::string panel, name;
+  std::function<Trial(int n)> make;
+};
+
+FieldDescription field_of(FieldKind kind) {
+  FieldDescription field;
+  field.name = "field";
+  field.kind = kind;
+  return field;
+}
+
+Targets target_nodes(int n) {
+  return nodes_of("nodes", cube(n + n / 4, 2));
+}
+
+/// Through GridTransfer, from all nodes of the source.
+Trial by_transfer(std::shared_ptr<const Mesh> source, Targets targets, FieldKind kind, const TransferOptions& options) {
+  auto values = std::make_shared<std::vector<double>>(sampled(source->coordinates, smooth_field));
+  auto map = std::make_shared<std::unique_ptr<GridTransfer>>();
+  const auto set_up = [=] {
+    map->reset();
+    *map = std::make_unique<GridTransfer>(Grid{source.get(), source->coordinates, Location::node}, targets.grid(),
+                                          field_of(kind), options, "bench");
+  };
+  return {targets, set_up, [=](std::span<double> result) { (*map)->apply(*values, result, 1); }};
+}
+
+Way through(const std::string& name, Method method, FieldKind kind, bool tetrahedra = false) {
+  return {"volume", name, [=](int n) {
+            TransferOptions options;
+            options.method = method;
+            return by_transfer(cube(n, 1, 1, tetrahedra), target_nodes(n), kind, options);
+          }};
+}
+
+Way vtk_locator() {
+  return {"volume", "VTK static locator, weights kept", [](int n) {
+            const auto source = cube(n, 1);
+            const Targets targets = target_nodes(n);
+            auto rival = std::make_shared<VtkRival>(*source, source->coordinates);
+            auto map = std::make_shared<VtkMap>();
+            auto values = std::make_shared<std::vector<double>>(sampled(source->coordinates, smooth_field));
+            return Trial{targets, [=] { *map = rival->locate(targets.points); },
+                         [=](std::span<double> result) { map->apply(*values, result); }};
+          }};
+}
+
+Way vtk_probe() {
+  return {"volume", "VTK probe filter", [](int n) {
+            const auto source = cube(n, 1);
+            const Targets targets = target_nodes(n);
+            auto rival = std::make_shared<VtkRival>(*source, source->coordinates);
+            auto values = std::make_shared<std::vector<double>>(sampled(source->coordinates, smooth_field));
+            return Trial{targets, {}, [=](std::span<double> result) { rival->probe(targets.points, *values, result); }};
+          }};
+}
+
+std::vector<Way> ways() {
+  return {through("interpolate, hex8", Method::interpolate, FieldKind::point_value),
+          through("interpolate, tet4", Method::interpolate, FieldKind::point_value, true),
+          through("conserve", Method::conserve, FieldKind::density), vtk_locator(), vtk_probe()};
+}
+
+/// Median of enough calls.
+double seconds_of(const std::function<void()>& call) {
+  const Communicator comm = Communicator::world();
+  Times times;
+  double sum = 0;
+  while (sum < enough_seconds && (sum < least_seconds || static_cast<int>(times.processor.size()) < least_repeats)) {
+    times.take(comm, [&] { return call(), 0; });
+    sum += times.processor.back();
+  }
+  return times.median();
+}
+
+std::string row(const Way& way, int n) {
+  const Trial trial = way.make(n);
+  std::vector<double> result(trial.targets.points.size());
+  const double set_up = trial.set_up ? seconds_of(trial.set_up) : 0;
+  trial.apply(result);
+  const double apply = seconds_of([&] { trial.apply(result); });
+  const Errors errors = errors_of(trial.targets, result, smooth_field);
+  const std::vector<double> nothing(result.size(), 0.0);
+  const Errors whole = errors_of(trial.targets, nothing, smooth_field);
+  return fmt::format("{},\"{}\",{},{},{:.4e},{:.4e},{:.4e},{:.4e}", way.panel, way.name, n, trial.targets.count(),
+                     set_up, apply, errors.rms / whole.rms, errors.greatest / whole.greatest);
+}
+
+}  // namespace
+
+void run_work_error(int finest, const std::string& csv) {
+  std::ofstream file(csv);
+  const auto put = [&](const std::string& line) {
+    fmt::print("{}\n", line);
+    file << line << std::endl;
+  };
+  put("panel,method,n,targets,set_up,apply,rms_error,greatest_error");
+  for (const Way& way : ways())
+    for (int n = 8; n <= finest; n *= 2) put(row(way, n));
+  if (!file) throw Error(ExitCode::file, csv + ": cannot be written");
+}
+
+}  // namespace tenon::bench
