@@ -117,9 +117,9 @@ void add_panel(vtkContextScene& scene, const LogLogPanel& panel, const vtkRectf&
     for (std::size_t i = 0; i < panel.lines.size(); ++i) add_line(*chart, panel.lines[i], i, font);
     set_log_axis(*chart->GetAxis(vtkAxis::BOTTOM), x);
     set_log_axis(*chart->GetAxis(vtkAxis::LEFT), y);
-    chart->SetShowLegend(true);
+    chart->SetShowLegend(panel.legend != LegendPlace::none);
     vtkChartLegend& legend = *chart->GetLegend();
-    legend.SetInline(true);
+    legend.SetInline(panel.legend == LegendPlace::inside);
     legend.SetHorizontalAlignment(vtkChartLegend::RIGHT);
     legend.SetVerticalAlignment(panel.legend_on_top ? vtkChartLegend::TOP : vtkChartLegend::BOTTOM);
     legend.SetLabelSize(font - 2);
@@ -138,14 +138,18 @@ void draw_log_log(const std::vector<LogLogPanel>& panels, const std::string& png
   window.SetMultiSamples(4);
   window.SetSize(width, height);
   view->GetRenderer()->SetBackground(1, 1, 1);
-  const float cell = static_cast<float>(width) / static_cast<float>(std::max<std::size_t>(1, panels.size()));
-  const float margin = 0.012F * static_cast<float>(width);
+  const auto share = [](const LogLogPanel& panel) { return panel.legend == LegendPlace::beside ? 1.5F : 1.0F; };
+  float shares = panels.empty() ? 1.0F : 0.0F;
+  for (const LogLogPanel& panel : panels) shares += share(panel);
+  const float unit = static_cast<float>(width) / shares, margin = 0.012F * static_cast<float>(width);
   const int font = std::max(9, static_cast<int>(std::lround(0.026 * std::min<double>(height, 0.5 * width))));
-  for (std::size_t i = 0; i < panels.size(); ++i)
-    add_panel(*view->GetScene(), panels[i],
-              vtkRectf(static_cast<float>(i) * cell + margin, margin, cell - 2 * margin,
-                       static_cast<float>(height) - 2 * margin),
-              font);
+  float left = 0;
+  for (const LogLogPanel& panel : panels) {
+    const float cell = unit * share(panel);
+    add_panel(*view->GetScene(), panel,
+              vtkRectf(left + margin, margin, cell - 2 * margin, static_cast<float>(height) - 2 * margin), font);
+    left += cell;
+  }
   window.Render();
   save_png(window, png);
 }

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bench_cases.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "framework/mesh/assemble.hpp"
 
 namespace tenon::bench {
 
@@ -20,21 +23,39 @@ double uniform(std::uint64_t seed, std::uint64_t id, std::uint64_t component) {
   return static_cast<double>(mix(mix(seed) + 4 * id + component) >> 11) * 0x1p-53;
 }
 
-std::shared_ptr<const Mesh> over_ranks(MeshData&& mesh) {
-  return distribute(Communicator::world(), std::move(mesh), {});
+/// Collective. The elements of this rank's slab of a cube that every rank has whole.
+std::shared_ptr<const Mesh> slab_of(const MeshData& whole, int n, std::size_t axis) {
+  const Communicator world = Communicator::world();
+  const BlockData& all = whole.blocks.front();
+  const auto nodes = static_cast<std::size_t>(topology(all.kind).nodes), side = static_cast<std::size_t>(n);
+  const std::size_t in_cell = all.size() / (side * side * side), stride = axis == 0 ? 1 : side;
+  std::vector<std::int64_t> connectivity, ids, used;
+  for (std::size_t e = 0; e < all.size(); ++e) {
+    const std::size_t layer = e / in_cell / stride % side;
+    if (static_cast<int>(layer * static_cast<std::size_t>(world.size()) / side) != world.rank()) continue;
+    const auto* const first = all.connectivity.data() + e * nodes;
+    connectivity.insert(connectivity.end(), first, first + nodes);
+    ids.push_back(static_cast<std::int64_t>(e));
+  }
+  used = connectivity;
+  std::ranges::sort(used);
+  used.erase(std::ranges::unique(used).begin(), used.end());
+  std::vector<Vec3> coordinates;
+  for (const std::int64_t id : used) coordinates.push_back(whole.coordinates[static_cast<std::size_t>(id)]);
+  MeshPart part{used, coordinates, {{"cube", all.kind, connectivity, ids}}};
+  return assemble(world, part, {.source = "cube"}).mesh;
 }
 
 }  // namespace
 
-std::shared_ptr<const Mesh> cube(int n, std::uint64_t seed, double grading, bool tetrahedra) {
-  if (Communicator::world().rank() > 0) return over_ranks({});
-  BoxShape shape;
-  shape.elements = {n, n, n};
-  shape.grading = {grading, grading, grading};
-  shape.distortion = 0.2;
-  shape.seed = seed;
-  shape.tetrahedra = tetrahedra;
-  return over_ranks(generate(shape));
+std::shared_ptr<const Mesh> cube(int n, std::uint64_t seed, const CubeShape& shape) {
+  BoxShape box;
+  box.elements = {n, n, n};
+  box.grading = {shape.grading, shape.grading, shape.grading};
+  box.distortion = 0.2;
+  box.seed = seed;
+  box.tetrahedra = shape.tetrahedra;
+  return slab_of(generate(box), n, shape.slabs == Slabs::x ? 0 : 1);
 }
 
 Targets nodes_of(std::string name, std::shared_ptr<const Mesh> mesh) {
@@ -44,14 +65,16 @@ Targets nodes_of(std::string name, std::shared_ptr<const Mesh> mesh) {
 }
 
 Targets random_points(GlobalId count, std::uint64_t seed) {
-  MeshData data;
-  data.source = "random points";
-  if (Communicator::world().rank() == 0)
-    for (std::uint64_t q = 0; q < static_cast<std::uint64_t>(count); ++q) {
-      data.coordinates.push_back({uniform(seed, q, 0), uniform(seed, q, 1), uniform(seed, q, 2)});
-      data.node_labels.push_back(static_cast<std::int64_t>(q) + 1);
-    }
-  return nodes_of("random points", over_ranks(std::move(data)));
+  const Communicator world = Communicator::world();
+  std::vector<std::int64_t> ids;
+  std::vector<Vec3> points;
+  for (std::uint64_t q = 0; q < static_cast<std::uint64_t>(count); ++q) {
+    const Vec3 x{uniform(seed, q, 0), uniform(seed, q, 1), uniform(seed, q, 2)};
+    if (static_cast<int>(x[1] * world.size()) != world.rank()) continue;
+    ids.push_back(static_cast<std::int64_t>(q));
+    points.push_back(x);
+  }
+  return nodes_of("random points", assemble(world, MeshPart{ids, points, {}}, {.source = "random points"}).mesh);
 }
 
 std::unique_ptr<transfer::GridTransfer> interpolation(const Mesh& source, std::span<const Vec3> coordinates,

@@ -21,12 +21,24 @@ struct Targets {
   std::vector<Vec3> points;  ///< of all local nodes, m
   transfer::Grid grid() const { return {mesh.get(), points, Location::node}; }
   GlobalId count() const { return mesh->global_nodes; }
+  /// Collective. Of the rank that has most.
+  double greatest_share() const {
+    return static_cast<double>(mesh->comm.max(static_cast<std::int64_t>(mesh->owned_nodes.size())));
+  }
 };
 
+/// How the elements of a cube are spread over the ranks: in slabs of equal thickness along x or y.
+enum class Slabs { x, y };
+
+struct CubeShape {
+  double grading = 1;  ///< ratio of the last to the first interval along each axis
+  bool tetrahedra = false;
+  Slabs slabs = Slabs::x;
+};
 /// Collective. Unit cube of n^3 hexahedra, interior nodes moved at random by up to 0.2 h in each direction.
-std::shared_ptr<const Mesh> cube(int n, std::uint64_t seed, double grading = 1, bool tetrahedra = false);
+std::shared_ptr<const Mesh> cube(int n, std::uint64_t seed, const CubeShape& shape = {});
 Targets nodes_of(std::string name, std::shared_ptr<const Mesh> mesh);
-/// Collective. Component c of point q is u(seed, q, c).
+/// Collective. Component c of point q is u(seed, q, c); in slabs along y.
 Targets random_points(GlobalId count, std::uint64_t seed);
 
 /// Collective. The map of point values.

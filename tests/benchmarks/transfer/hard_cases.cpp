@@ -101,7 +101,7 @@ void time_update(const Movement& movement, const Mesh& source, const Targets& ta
     same = same && same_bits(comm, updated, fresh);
     update.take(comm, [&] { return map->update(source.coordinates, targets.points); });
   }
-  const double scale = 1e6 / static_cast<double>(targets.count());
+  const double scale = 1e6 / targets.greatest_share();
   if (comm.rank() == 0)
     fmt::print("  {:34} {:8.4f} {:8.4f} {:8.4f}   rebuilt {:8.4f}   {}\n", movement.name, update.median() * scale,
                update.best() * scale, update.median_wall() * scale, rebuild.median() * scale,
@@ -112,7 +112,7 @@ void time_update(const Movement& movement, const Mesh& source, const Targets& ta
 
 void run_pushed_out() {
   const auto source = cube(32, 1);
-  const Targets at_rest = nodes_of("nodes", cube(40, 2));
+  const Targets at_rest = nodes_of("nodes", cube(40, 2, {.slabs = Slabs::y}));
   if (first_rank())
     fmt::print(
         "pushed out: 32^3 -> nodes of 40^3, of which 9,602 stand outside by d\n"
@@ -139,13 +139,15 @@ void run_graded(int n, int m, int repeats) {
     std::vector<double> values, result;
     Times set_up, locate;
     Errors errors;
+    double share = 0;
   };
   std::vector<Pair> pairs;
   for (const double grading : {1.0, 1000.0}) {
-    const auto source = cube(n, 1, grading);
-    pairs.push_back({source, nodes_of("", cube(m, 2, grading)), {}, {}, {}, {}, {}});
-    pairs.push_back({source, random_points(1'000'000, 3), {}, {}, {}, {}, {}});
+    const auto source = cube(n, 1, {.grading = grading});
+    pairs.push_back({source, nodes_of("", cube(m, 2, {.grading = grading, .slabs = Slabs::y})), {}, {}, {}, {}, {}, 0});
+    pairs.push_back({source, random_points(1'000'000, 3), {}, {}, {}, {}, {}, 0});
   }
+  for (Pair& p : pairs) p.share = p.targets.greatest_share();
   for (int i = 0; i < repeats; ++i)
     for (Pair& p : pairs) {
       const auto map =
@@ -161,9 +163,7 @@ void run_graded(int n, int m, int repeats) {
   if (!first_rank()) return;
   fmt::print("graded 1,000 : 1 in each direction, {}^3; set-up, us per target\n", n);
   for (const std::size_t k : {0, 1}) {
-    const auto us = [&](const Times& t, const Pair& p) {
-      return t.processor.empty() ? 0 : 1e6 * t.median() / static_cast<double>(p.targets.count());
-    };
+    const auto us = [&](const Times& t, const Pair& p) { return t.processor.empty() ? 0 : 1e6 * t.median() / p.share; };
     const Pair &uniform = pairs[k], &graded = pairs[k + 2];
     fmt::print("  {:14} uniform {:.4f}, graded {:.4f}: ratio {:.3f}; VTK {:.4f}, {:.4f}; f_l {:.1e}\n",
                k == 0 ? "nodes" : "random points", us(uniform.set_up, uniform), us(graded.set_up, graded),
@@ -174,7 +174,7 @@ void run_graded(int n, int m, int repeats) {
 
 void run_moving(int n, int m, int repeats) {
   const auto source = cube(n, 1);
-  const Targets targets = nodes_of("nodes", cube(m, 2));
+  const Targets targets = nodes_of("nodes", cube(m, 2, {.slabs = Slabs::y}));
   const double h = 1.0 / n;
   const Motion rest = [](const Vec3& x) { return x; };
   const Motion together = rigid(0.1, {0.3, -0.2, 0.1}), shifted = rigid(0, {0.5, 0.25, -0.125});

@@ -24,7 +24,7 @@ struct Arguments {
 void uniform(int n, int m, const WorkOptions& options) {
   const auto source = cube(n, 1);
   const std::string title = fmt::format("{}^3 distorted hexahedra", n);
-  run_work_case(title, *source, nodes_of(fmt::format("nodes of {}^3", m), cube(m, 2)), options);
+  run_work_case(title, *source, nodes_of(fmt::format("nodes of {}^3", m), cube(m, 2, {.slabs = Slabs::y})), options);
   run_work_case(title, *source, random_points(1'000'000, 3), options);
 }
 

@@ -45,8 +45,9 @@ std::vector<Row> read(const std::string& file) {
   return rows;
 }
 
-LogLogPanel panel(const std::vector<Row>& rows, const std::string& which, const std::string& title, bool set_up) {
-  LogLogPanel result{title, "processor seconds", "relative rms error", {}, true};
+LogLogPanel panel(const std::vector<Row>& rows, const std::string& which, const std::string& title, bool set_up,
+                  LegendPlace legend) {
+  LogLogPanel result{title, "processor seconds", "relative rms error", {}, true, legend};
   for (const Row& row : rows) {
     if (row.panel != which) continue;
     auto line = std::ranges::find(result.lines, row.method, &LogLogLine::name);
@@ -58,7 +59,7 @@ LogLogPanel panel(const std::vector<Row>& rows, const std::string& which, const 
   // Targets grow as n^3 and an error of second order falls as n^-2.
   const LogLogLine& first = result.lines.front();
   const double power = which == "volume" ? -2.0 / 3 : -1;
-  LogLogLine guide{"second order at equal time per target", {}, {}, true};
+  LogLogLine guide{"second order", {}, {}, true};
   for (const double x : {first.x.front(), first.x.back()}) {
     guide.x.push_back(x);
     guide.y.push_back(0.5 * first.y.front() * std::pow(x / first.x.front(), power));
@@ -77,11 +78,11 @@ int main(int argc, char** argv) {
   try {
     ensure_display(argc, argv);
     const std::vector<Row> rows = read(argv[2]);
-    std::vector<LogLogPanel> panels{panel(rows, "volume", "Cube: set-up and one application", true),
-                                    panel(rows, "volume", "Cube: each application", false)};
+    std::vector<LogLogPanel> panels{panel(rows, "volume", "Cube: set-up and one application", true, LegendPlace::none),
+                                    panel(rows, "volume", "Cube: each application", false, LegendPlace::beside)};
     if (std::ranges::count(rows, "surface", &Row::panel) > 0)
-      panels.push_back(panel(rows, "surface", "Sphere: set-up and one application", true));
-    draw_log_log(panels, argv[1], 800 * static_cast<int>(panels.size()), 720);
+      panels.push_back(panel(rows, "surface", "Sphere: set-up and one application", true, LegendPlace::inside));
+    draw_log_log(panels, argv[1], 700 * static_cast<int>(panels.size()) + 350, 720);
   } catch (const std::exception& error) {
     fmt::print(stderr, "transfer_plot: {}\n", error.what());
     return 3;

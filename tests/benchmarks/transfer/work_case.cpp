@@ -60,20 +60,20 @@ class Work {
   }
 
   void print() {
-    const auto n = static_cast<double>(targets_.count());
+    const double n = targets_.greatest_share();
     map_->apply(values_, result_, 1);
     const Errors smooth = errors_of(targets_, result_, smooth_field);
     const transfer::TransferReport report = map_->report(values_, result_, 1);
     map_->apply(linear_, result_, 1);
     const Errors linear = errors_of(targets_, result_, linear_field);
-    const double bytes = static_cast<double>(comm_.sum(map_->memory())) / n;
+    const double bytes = static_cast<double>(comm_.sum(map_->memory())) / static_cast<double>(targets_.count());
     Errors theirs;
     if (rival_) {
       rival_map_.apply(linear_, result_);
       theirs = errors_of(targets_, result_, linear_field);
     }
     if (comm_.rank() > 0) return;
-    fmt::print("  us per target                  median      best      wall\n");
+    fmt::print("  us per target of a rank        median      best      wall\n");
     fmt::print("  set-up                      {}\n", line(set_up_, n));
     if (rival_) {
       fmt::print("  VTK static locator          {}   ours / VTK {:.3f}\n", line(locate_, n),

@@ -63,7 +63,7 @@ Way through(const std::string& name, Method method, FieldKind kind, bool tetrahe
   return {"volume", name, [=](int n) {
             TransferOptions options;
             options.method = method;
-            return by_transfer(cube(n, 1, 1, tetrahedra), target_nodes(n), kind, options);
+            return by_transfer(cube(n, 1, {.tetrahedra = tetrahedra}), target_nodes(n), kind, options);
           }};
 }
 
