@@ -6,9 +6,12 @@
 #include <cmath>
 #include <fstream>
 #include <functional>
+#include <optional>
 
 #include "bench_cases.hpp"
 #include "bench_clock.hpp"
+#include "transfer/moving_least_squares.hpp"
+#include "transfer/projection.hpp"
 #include "vtk_rival.hpp"
 
 namespace tenon::bench {
@@ -67,6 +70,63 @@ Way through(const std::string& name, Method method, FieldKind kind, bool tetrahe
           }};
 }
 
+/// The two meshes of a trial with what the methods below the transfer need of them.
+struct Ends {
+  std::shared_ptr<const Mesh> source;
+  Targets targets;
+  transfer::Items source_nodes, target_nodes;
+  std::vector<double> values;
+
+  explicit Ends(int n)
+      : source(cube(n, 1)),
+        targets(bench::target_nodes(n)),
+        source_nodes(transfer::items_of(*source, Location::node)),
+        target_nodes(transfer::items_of(*targets.mesh, Location::node)),
+        values(sampled(source->coordinates, smooth_field)) {}
+  transfer::Side source_side() const {
+    return {*source, source->coordinates, Location::node, source_nodes, source_nodes};
+  }
+  transfer::Side target_side() const {
+    return {*targets.mesh, targets.points, Location::node, target_nodes, target_nodes};
+  }
+};
+
+Way projection(const std::string& name, bool bounded) {
+  return {
+      "volume", name, [=](int n) {
+        const auto ends = std::make_shared<Ends>(n);
+        const auto map = std::make_shared<std::optional<transfer::Projection>>();
+        const auto set_up = [=] {
+          map->reset();
+          transfer::Sought sought;
+          map->emplace(ends->source_side(), ends->target_side(), transfer::PlaceRules{},
+                       transfer::ProjectionOptions{.bounded = bounded}, "bench", sought);
+        };
+        return Trial{ends->targets, set_up, [=](std::span<double> result) { (*map)->apply(ends->values, result, 1); }};
+      }};
+}
+
+Way moving_least_squares() {
+  return {"volume", "moving least squares, 20 points", [](int n) {
+            const auto ends = std::make_shared<Ends>(n);
+            const auto map = std::make_shared<transfer::RowMap>();
+            const auto gathered = std::make_shared<std::vector<double>>();
+            const auto set_up = [=] {
+              *map = {};
+              std::vector<transfer::FittedPoint> fitted;
+              const Communicator& comm = ends->source->comm;
+              const transfer::Rows rows = moving_least_squares_rows(comm, ends->source_nodes, ends->source->coordinates,
+                                                                    ends->targets.points, {}, "bench", fitted);
+              *map = transfer::RowMap(comm, rows, "bench");
+              gathered->resize(map->slots());
+            };
+            return Trial{ends->targets, set_up, [=](std::span<double> result) {
+                           map->gather().forward(std::span<const double>(ends->values), std::span(*gathered));
+                           map->multiply(*gathered, result, 1);
+                         }};
+          }};
+}
+
 Way vtk_locator() {
   return {"volume", "VTK static locator, weights kept", [](int n) {
             const auto source = cube(n, 1);
@@ -92,7 +152,12 @@ Way vtk_probe() {
 std::vector<Way> ways() {
   return {through("interpolate, hex8", Method::interpolate, FieldKind::point_value),
           through("interpolate, tet4", Method::interpolate, FieldKind::point_value, true),
-          through("conserve", Method::conserve, FieldKind::density), vtk_locator(), vtk_probe()};
+          through("conserve", Method::conserve, FieldKind::density),
+          projection("project", false),
+          projection("project, bounded", true),
+          moving_least_squares(),
+          vtk_locator(),
+          vtk_probe()};
 }
 
 /// Median of enough calls.
