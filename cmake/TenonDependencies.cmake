@@ -2,20 +2,22 @@
 # Every outside library, found once. docs/dependencies.md says what each is for.
 find_package(MPI REQUIRED COMPONENTS C)
 
+find_package(fmt REQUIRED)
+include(TenonZoltan)
+if(NOT TARGET Zoltan::zoltan)
+  message(FATAL_ERROR "Tenon needs Zoltan (Debian: libtrilinos-zoltan-dev); set ZOLTAN_INCLUDE and ZOLTAN_LIBRARY")
+endif()
+if(TENON_ONLY)
+  return()
+endif()
+
 set(HDF5_PREFER_PARALLEL ON)
 find_package(HDF5 REQUIRED COMPONENTS C)
 if(NOT HDF5_IS_PARALLEL)
   message(FATAL_ERROR "Tenon needs the parallel HDF5 (Debian: libhdf5-openmpi-dev), found a serial one")
 endif()
 
-find_path(ZOLTAN_INCLUDE zoltan.h PATH_SUFFIXES trilinos REQUIRED)
-find_library(ZOLTAN_LIBRARY NAMES trilinos_zoltan zoltan REQUIRED)
-add_library(Zoltan::zoltan UNKNOWN IMPORTED)
-set_target_properties(Zoltan::zoltan PROPERTIES IMPORTED_LOCATION ${ZOLTAN_LIBRARY}
-  INTERFACE_INCLUDE_DIRECTORIES ${ZOLTAN_INCLUDE} INTERFACE_LINK_LIBRARIES MPI::MPI_C)
-
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
-find_package(fmt REQUIRED)
 find_package(yaml-cpp REQUIRED)
 find_package(muparser REQUIRED)
 find_package(CLI11 REQUIRED)

@@ -141,14 +141,23 @@ MPI_Comm mpi_communicator(const Communicator& comm) {
   return comm.impl().mpi;
 }
 
+struct CommunicatorAccess {
+  static Communicator on(MPI_Comm mpi) {
+    return Communicator(
+        std::make_shared<Communicator::Impl>(duplicate_of(mpi), std::make_shared<std::deque<ExchangeCount>>()));
+  }
+};
+
+Communicator communicator_on(MPI_Comm mpi) {
+  return CommunicatorAccess::on(mpi);
+}
+
 Communicator Communicator::world() {
-  return Communicator(
-      std::make_shared<Impl>(duplicate_of(MPI_COMM_WORLD), std::make_shared<std::deque<ExchangeCount>>()));
+  return communicator_on(MPI_COMM_WORLD);
 }
 
 Communicator Communicator::self() {
-  return Communicator(
-      std::make_shared<Impl>(duplicate_of(MPI_COMM_SELF), std::make_shared<std::deque<ExchangeCount>>()));
+  return communicator_on(MPI_COMM_SELF);
 }
 
 Communicator Communicator::duplicate() const {

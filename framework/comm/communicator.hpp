@@ -118,6 +118,7 @@ class Communicator {
   Impl& impl() const { return *impl_; }
 
  private:
+  friend struct CommunicatorAccess;
   explicit Communicator(std::shared_ptr<Impl> impl) : impl_(std::move(impl)) {}
   void all_gather_bytes(const void* value, void* all, std::size_t bytes) const;
   std::vector<std::byte> gather_bytes(std::span<const std::byte> bytes) const;
