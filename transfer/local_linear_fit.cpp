@@ -15,6 +15,8 @@ using Matrix = std::array<Vec3, 3>;
 /// Directions in which the points extend less than the root of this, relative to the greatest, are taken for round-off;
 /// between the two they fade in.
 constexpr double nothing = 1e-12, something = 1e-10;
+/// The same for eigenvalues in units of the squared radius, which rounding of the mean alone makes 1e-31.
+constexpr double no_extent = 1e-26, some_extent = 1e-24;
 /// det / (trace / 3)^3 above which a covariance is inverted directly.
 constexpr double well_conditioned = 1e-4;
 /// The root of the weighted mean square distance of evenly spaced points from their mean, times this, is about their
@@ -62,18 +64,18 @@ bool invert(const Symmetric& c, Symmetric& inverse) {
   const double xy = c[4] * c[5] - c[3] * c[2], yz = c[3] * c[5] - c[0] * c[4], zx = c[3] * c[4] - c[1] * c[5];
   const double determinant = c[0] * xx + c[3] * xy + c[5] * zx;
   const double mean = (c[0] + c[1] + c[2]) / 3;
-  if (!(determinant > well_conditioned * mean * mean * mean)) return false;
+  if (!(mean > some_extent && determinant > well_conditioned * mean * mean * mean)) return false;
   const double r = 1 / determinant;
   inverse = {r * xx, r * yy, r * zz, r * xy, r * yz, r * zx};
   return true;
 }
 
-/// 0 to 1 as the eigenvalue, relative to the greatest, rises from `nothing` to `something`.
-double presence(double relative) {
-  if (!(relative > nothing)) return 0;
-  if (relative >= something) return 1;
-  const double x = std::log(relative / nothing) / std::log(something / nothing);
-  return x * x * (3 - 2 * x);
+/// 0 to 1, smoothly, as the logarithm of x goes from that of `low` to that of `high`.
+double fade_in(double x, double low, double high) {
+  if (!(x > low)) return 0;
+  if (x >= high) return 1;
+  const double s = std::log(x / low) / std::log(high / low);
+  return s * s * (3 - 2 * s);
 }
 
 /// The least nu >= 0 with sum (g_a l_a / (l_a + nu))^2 <= trust^2: the point of the ellipsoid |C^-1/2 y| <= trust that
@@ -106,9 +108,9 @@ bool damped_inverse(const Symmetric& c, const Vec3& d, double trust, Symmetric& 
   if (!(greatest > 0)) return false;
   Vec3 g{}, here{};
   for (std::size_t a = 0; a < 3; ++a) {
-    here[a] = presence(l[a] / greatest);
+    here[a] = fade_in(l[a] / greatest, nothing, something) * fade_in(l[a], no_extent, some_extent);
     if (here[a] == 0) l[a] = 0;
-    g[a] = l[a] > 0 ? here[a] * dot(e[a], d) / std::sqrt(l[a]) : 0;
+    g[a] = l[a] > 0 ? dot(e[a], d) / std::sqrt(l[a]) : 0;
   }
   const double nu = dot(g, g) > trust * trust ? multiplier(g, l, trust) : 0;
   bool whole = nu == 0;
@@ -131,15 +133,19 @@ void radial_weights(std::span<const double> squared, double radius, std::span<do
   }
 }
 
-/// Makes the sum 1 to an ulp.
+/// Makes the sum 1 to an ulp (of the sum of the absolute weights). Little is added after the last weight of some size,
+/// so that one can be chosen such that the sum rounds to 1 where the largest cannot.
 void normalise(std::span<double> weights) {
-  std::size_t largest = 0;
-  for (std::size_t i = 1; i < weights.size(); ++i)
+  std::size_t largest = 0, last = 0;
+  for (std::size_t i = 1; i < weights.size(); ++i) {
     if (std::abs(weights[i]) > std::abs(weights[largest])) largest = i;
-  for (int repeat = 0; repeat < 2; ++repeat) {
+    if (std::abs(weights[i]) > 1e-3) last = i;
+  }
+  for (int attempt = 0; attempt < 4; ++attempt) {
     double sum = 0;
     for (const double w : weights) sum += w;
-    weights[largest] += 1 - sum;
+    if (sum == 1) break;
+    weights[attempt % 2 == 0 ? largest : last] += 1 - sum;
   }
 }
 
@@ -165,6 +171,7 @@ FitOutcome linear_fit(std::span<const Vec3> neighbours, bool all, const FitRules
   if (!(radius > 0)) {  // all coincide with t
     std::fill(omega.begin(), omega.end(), 1.0 / static_cast<double>(n));
     normalise(omega);
+    outcome.deficient = true;
     return outcome;
   }
 
@@ -192,6 +199,7 @@ FitOutcome linear_fit(std::span<const Vec3> neighbours, bool all, const FitRules
     outcome.exact = damped_inverse(c, -1.0 * mean, rules.trust, inverse);
     slope = multiply(inverse, -1.0 * mean);
   }
+  outcome.deficient = !outcome.exact;
   if (outcome.exact) {  // once more for what rounding left
     Vec3 left = mean;
     for (std::size_t i = 0; i < n; ++i) left = left + (omega[i] * dot(slope, y[i])) * y[i];

@@ -21,9 +21,10 @@ struct FitRules {
 
 /// What became of a fit.
 struct FitOutcome {
-  double distance = 0;  ///< to the nearest point, m
-  double spacing = 0;   ///< of the points around, m; 0 if all neighbours coincide
-  bool exact = false;   ///< linear fields are reproduced in all three directions
+  double distance = 0;     ///< to the nearest point, m
+  double spacing = 0;      ///< of the points around, m; 0 if all neighbours coincide
+  bool exact = false;      ///< linear fields are reproduced in all three directions
+  bool deficient = false;  ///< they could not be, for want of points in some direction
 };
 
 inline constexpr std::size_t max_neighbours = 64;

@@ -22,19 +22,10 @@ struct RowHead {
   std::int64_t terms = 0;
 };
 
-/// Rows of all points, as they come back from where they met the cloud.
+/// The weights of all points, and what the fits found.
 struct FittedRows {
-  std::size_t bytes = 0;
-  std::vector<std::byte> data;
-
-  RowHead head(std::size_t i) const {
-    RowHead head;
-    std::memcpy(&head, data.data() + i * bytes, sizeof head);
-    return head;
-  }
-  void terms(std::size_t i, std::span<Term> to) const {
-    std::memcpy(to.data(), data.data() + i * bytes + sizeof(RowHead), to.size_bytes());
-  }
+  Rows rows;
+  std::vector<FitOutcome> fits;
 };
 
 void fit_row(const Vec3& x, std::span<const NearPoint> near, bool all, const FitRules& rules,
@@ -56,15 +47,64 @@ void fit_row(const Vec3& x, std::span<const NearPoint> near, bool all, const Fit
   std::memcpy(result.data() + sizeof head, terms.data(), count * sizeof(Term));
 }
 
-/// Collective.
-FittedRows fit_rows(const Communicator& comm, const Items& items, std::span<const Vec3> places,
-                    std::span<const Vec3> points, const MovingLeastSquaresOptions& options, const std::string& name) {
+/// Collective. One fit for each point, to `neighbours` points of the cloud.
+FittedRows fit_to(const Communicator& comm, std::span<const CloudPoint> cloud, std::span<const Vec3> points,
+                  int neighbours, bool all, const FitRules& rules, const std::string& name) {
+  const std::size_t bytes = sizeof(RowHead) + static_cast<std::size_t>(neighbours) * sizeof(Term);
+  std::vector<std::byte> data(points.size() * bytes);
+  for_each_with_nearest(
+      comm, cloud, points, neighbours, bytes, data,
+      [&](const Vec3& x, std::span<const NearPoint> near, std::span<std::byte> result) {
+        fit_row(x, near, all, rules, result);
+      },
+      "transfer '" + name + "'");
+  FittedRows fitted;
+  fitted.rows.begin.reserve(points.size() + 1);
+  fitted.fits.reserve(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    RowHead head;
+    std::memcpy(&head, data.data() + i * bytes, sizeof head);
+    fitted.rows.begin.push_back(fitted.rows.begin.back() + head.terms);
+    fitted.fits.push_back(head.fit);
+  }
+  fitted.rows.terms.resize(static_cast<std::size_t>(fitted.rows.begin.back()));
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto first = static_cast<std::size_t>(fitted.rows.begin[i]);
+    const std::size_t count = fitted.rows.row(i).size() * sizeof(Term);
+    if (count > 0) std::memcpy(fitted.rows.terms.data() + first, data.data() + i * bytes + sizeof(RowHead), count);
+  }
+  return fitted;
+}
+
+/// Puts the rows and fits of `some` in place of those that `which` names, ascending.
+void replace(FittedRows& all, const FittedRows& some, std::span<const std::size_t> which) {
+  Rows rows;
+  rows.begin.reserve(all.rows.begin.size());
+  rows.terms.reserve(all.rows.terms.size() + some.rows.terms.size());
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < all.rows.size(); ++i) {
+    const bool here = next < which.size() && which[next] == i;
+    const std::span<const Term> row = here ? some.rows.row(next) : all.rows.row(i);
+    if (here) all.fits[i] = some.fits[next++];
+    rows.terms.insert(rows.terms.end(), row.begin(), row.end());
+    rows.begin.push_back(static_cast<std::int64_t>(rows.terms.size()));
+  }
+  all.rows = std::move(rows);
+}
+
+void check_options(const MovingLeastSquaresOptions& options, const std::string& name) {
   const auto greatest = static_cast<int>(max_neighbours);
   if (options.neighbours < 1 || options.neighbours > greatest || !(options.rules.trust >= 0))
     throw Error(ExitCode::usage,
                 fmt::format("transfer '{}': moving least squares with {} neighbours and trust {}; at least 1 and at "
                             "most {} neighbours and a trust that is not negative are possible",
                             name, options.neighbours, options.rules.trust, greatest));
+}
+
+/// Collective.
+FittedRows fit_rows(const Communicator& comm, const Items& items, std::span<const Vec3> places,
+                    std::span<const Vec3> points, const MovingLeastSquaresOptions& options, const std::string& name) {
+  check_options(options, name);
   assert(places.size() == items.owned.size());
   std::vector<CloudPoint> cloud;
   cloud.reserve(places.size());
@@ -75,17 +115,19 @@ FittedRows fit_rows(const Communicator& comm, const Items& items, std::span<cons
     throw Error(ExitCode::geometry, fmt::format("transfer '{}': the cloud has no points that values could come from or "
                                                 "go to",
                                                 name));
-  const bool all = in_cloud <= options.neighbours;
-  FittedRows rows;
-  rows.bytes = sizeof(RowHead) + static_cast<std::size_t>(options.neighbours) * sizeof(Term);
-  rows.data.resize(points.size() * rows.bytes);
-  for_each_with_nearest(
-      comm, cloud, points, options.neighbours, rows.bytes, rows.data,
-      [&](const Vec3& x, std::span<const NearPoint> near, std::span<std::byte> result) {
-        fit_row(x, near, all, options.rules, result);
-      },
-      "transfer '" + name + "'");
-  return rows;
+  const auto fit = [&](std::span<const Vec3> to, int neighbours) {
+    return fit_to(comm, cloud, to, neighbours, in_cloud <= neighbours, options.rules, name);
+  };
+  FittedRows fitted = fit(points, options.neighbours);
+  if (in_cloud <= options.neighbours) return fitted;
+
+  // The nearest points may stand in one line or plane though the cloud does not (a mesh with flat elements, a crowd).
+  std::vector<std::size_t> deficient;
+  std::vector<Vec3> again;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (fitted.fits[i].deficient) deficient.push_back(i), again.push_back(points[i]);
+  if (comm.any(!deficient.empty())) replace(fitted, fit(again, static_cast<int>(max_neighbours)), deficient);
+  return fitted;
 }
 
 FittedPoint fitted_point(const FitOutcome& fit) {
@@ -143,22 +185,10 @@ Rows assemble(const Items& items, std::span<const Entry> arrived) {
 Rows moving_least_squares_rows(const Communicator& comm, const Items& items, std::span<const Vec3> cloud,
                                std::span<const Vec3> targets, const MovingLeastSquaresOptions& options,
                                const std::string& name, std::vector<FittedPoint>& fitted) {
-  const FittedRows all = fit_rows(comm, items, cloud, targets, options, name);
-  Rows rows;
-  rows.begin.reserve(targets.size() + 1);
+  FittedRows all = fit_rows(comm, items, cloud, targets, options, name);
   fitted.clear();
-  fitted.reserve(targets.size());
-  for (std::size_t i = 0; i < targets.size(); ++i) {
-    const RowHead head = all.head(i);
-    rows.begin.push_back(rows.begin.back() + head.terms);
-    fitted.push_back(fitted_point(head.fit));
-  }
-  rows.terms.resize(static_cast<std::size_t>(rows.begin.back()));
-  for (std::size_t i = 0; i < targets.size(); ++i)
-    all.terms(i, std::span(rows.terms)
-                     .subspan(static_cast<std::size_t>(rows.begin[i]),
-                              static_cast<std::size_t>(rows.begin[i + 1] - rows.begin[i])));
-  return rows;
+  for (const FitOutcome& fit : all.fits) fitted.push_back(fitted_point(fit));
+  return std::move(all.rows);
 }
 
 Rows moving_least_squares_transpose(const Communicator& comm, const Items& items, std::span<const Vec3> cloud,
@@ -170,17 +200,14 @@ Rows moving_least_squares_transpose(const Communicator& comm, const Items& items
   const FittedRows all = fit_rows(comm, items, cloud, places, options, name);
   std::vector<Entry> entries;
   std::vector<int> to;
-  std::vector<Term> column, row;
+  std::vector<Term> column;
   fitted.clear();
   for (std::size_t first = 0, last = 0; first < points.size(); first = last) {
     column.clear();
     double total = 0;
     for (last = first; last < points.size() && points[last].source == points[first].source; ++last) {
-      const RowHead head = all.head(last);
-      fitted.push_back(fitted_point(head.fit));
-      row.resize(static_cast<std::size_t>(head.terms));
-      all.terms(last, row);
-      for (Term& term : row) term.weight *= points[last].part, column.push_back(term);
+      fitted.push_back(fitted_point(all.fits[last]));
+      for (Term term : all.rows.row(last)) term.weight *= points[last].part, column.push_back(term);
       total += points[last].part;
     }
     merge_column(column, total);
