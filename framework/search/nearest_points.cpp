@@ -168,7 +168,7 @@ void for_each_with_nearest(const Communicator& comm, std::span<const CloudPoint>
   std::vector<Vec3> asking(points.begin(), points.end());
   std::vector<std::byte> found;
   std::vector<char> done;
-  while (comm.sum(static_cast<std::int64_t>(missing.size())) > 0) {
+  for (std::int64_t left = 0; (left = comm.sum(static_cast<std::int64_t>(missing.size()))) > 0;) {
     Box around;
     double nearest = infinity;
     for (const Vec3& x : asking) around.add(x), nearest = std::min(nearest, source.distance(x));
@@ -180,16 +180,17 @@ void for_each_with_nearest(const Communicator& comm, std::span<const CloudPoint>
     for (const CloudPoint& p : cloud)
       if (around.contains(p.x)) near_cloud.push_back(p);
     rendezvous(comm, near_cloud, asking, at_most, reach, bytes, found, done, work, name);
-    std::size_t left = 0;
+    std::size_t unfinished = 0;
     for (std::size_t j = 0; j < asking.size(); ++j) {
       if (done[j]) {
         if (bytes > 0) std::memcpy(results.data() + missing[j] * bytes, found.data() + j * bytes, bytes);
         continue;
       }
-      missing[left] = missing[j], asking[left] = asking[j], ++left;
+      missing[unfinished] = missing[j], asking[unfinished] = asking[j], ++unfinished;
     }
-    missing.resize(left), asking.resize(left);
-    reach *= 2;
+    missing.resize(unfinished), asking.resize(unfinished);
+    // Where few ask, a round costs more than what they bring together.
+    reach *= 16 * left < in_cloud ? 4 : 2;
   }
 }
 

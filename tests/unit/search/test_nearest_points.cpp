@@ -132,7 +132,7 @@ void compare_with_brute_force(const Case& c, int way, int k) {
 TEST(NearestPoints, EqualBruteForce) {
   for (const Case& c : cases())
     for (int way = 0; way < 3; ++way)
-      for (const int k : {1, 12, 20}) compare_with_brute_force(c, way, k);
+      for (const int k : {1, 20}) compare_with_brute_force(c, way, k);
 }
 
 TEST(NearestPoints, NeighboursSayWhereTheirOwnersKeepThem) {

@@ -67,7 +67,9 @@ TEST(LocalLinearFit, ReproducesLinearFieldsAtAnyScale) {
       EXPECT_NEAR(f.sum, 1, ulp * f.absolute);
       EXPECT_LE(f.absolute, 1 + FitRules{}.trust + 1e-12);
       ASSERT_TRUE(f.outcome.exact || f.absolute > 3);
-      if (f.outcome.exact) EXPECT_LE(norm(f.moment), 1e-14 * scale * (1 + f.absolute)) << "seed " << seed;
+      if (f.outcome.exact) {
+        EXPECT_LE(norm(f.moment), 1e-14 * scale * (1 + f.absolute)) << "seed " << seed;
+      }
     }
 }
 
@@ -121,7 +123,9 @@ TEST(LocalLinearFit, WeightsStayBoundedAndContinuousAsACloudFlattens) {
     const Fit f = fit(cloud, turned({0.1, 0.2, 0.3}), rules);
     ASSERT_NEAR(f.sum, 1, ulp * f.absolute);
     ASSERT_LE(f.absolute, 5 + 1e-12) << "thickness " << thickness;
-    if (thickness < 1e-3) ASSERT_LE(norm(f.moment + turned({0, 0, 0.3})), 1e-2) << "thickness " << thickness;
+    if (thickness < 1e-3) {
+      ASSERT_LE(norm(f.moment + turned({0, 0, 0.3})), 1e-2) << "thickness " << thickness;
+    }
     for (std::size_t i = 0; i < before.size(); ++i)
       ASSERT_NEAR(f.weights[i], before[i], 0.02) << "thickness " << thickness;
     before = f.weights;
@@ -137,7 +141,9 @@ TEST(LocalLinearFit, StopsExtrapolatingWhereItWouldNeedLargeWeights) {
     ASSERT_NEAR(f.sum, 1, ulp * f.absolute);
     ASSERT_LE(f.absolute, 1 + FitRules{}.trust + 1e-9);
     ASSERT_EQ(f.outcome.exact, !f.outcome.deficient);
-    if (d > 20) ASSERT_FALSE(f.outcome.exact);
+    if (d > 20) {
+      ASSERT_FALSE(f.outcome.exact);
+    }
     far = f.outcome.distance;
     for (std::size_t i = 0; i < before.size(); ++i) ASSERT_NEAR(f.weights[i], before[i], 0.25);
     before = f.weights;
