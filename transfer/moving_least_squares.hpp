@@ -17,7 +17,7 @@ struct MovingLeastSquaresOptions {
   /// Points that each fit looks at; from 1 to max_neighbours. The farthest has no weight. A fit that they do not
   /// determine, because they stand in a line or a plane, is repeated with max_neighbours.
   int neighbours = 20;
-  FitRules rules;
+  FitRules rules{};
 };
 
 /// What the fit at a point found, beside the weights.
