@@ -41,6 +41,7 @@ Columns columns_of(const SpreadingPoints& spreading, std::span<const Placement> 
   Columns columns;
   std::vector<Piece> pieces;
   std::vector<std::pair<GlobalId, int>> order;
+  std::array<double, max_nodes> shape;
   for (std::size_t g = 0; g < spreading.groups(); ++g) {
     for (std::size_t s = spreading.first_share[g]; s < spreading.first_share[g + 1]; ++s) {
       pieces.clear();
@@ -51,9 +52,11 @@ Columns columns_of(const SpreadingPoints& spreading, std::span<const Placement> 
           pieces.push_back({place.element, part, place.item, place.owner});
           continue;
         }
-        const ElementNodes& at = nodes.of(p);
-        for (std::size_t a = 0; a < static_cast<std::size_t>(topology(place.kind).nodes); ++a)
-          if (place.weights[a] != 0) pieces.push_back({at.id[a], part * place.weights[a], at.at_owner[a], at.owner[a]});
+        const PlacedNodes::Nodes at = nodes.of(p);
+        const std::span<double> weights = std::span(shape).first(place.nodes());
+        shape_weights(place, weights);
+        for (std::size_t a = 0; a < weights.size(); ++a)
+          if (weights[a] != 0) pieces.push_back({at.id[a], part * weights[a], at.at_owner[a], at.owner[a]});
       }
       merge(pieces, order, columns.pieces);
       columns.begin.push_back(columns.pieces.size());
@@ -121,17 +124,17 @@ Rows assemble(const Items& items, std::span<const Entry> entries) {
 Rows conservation_rows(const Side& source, const Side& target, const PlaceRules& rules, bool density,
                        const std::string& name, Sought& sought) {
   const Communicator& comm = target.mesh.comm;
-  const Containers containers = containers_of(target.mesh, target.coordinates, rules.tolerance, name);
+  const Containers containers = containers_of(target.mesh, target.coordinates, {}, rules.tolerance, name);
   SpreadingPoints spreading = spreading_points(source, target, density);
   sought.skipped = containers.skipped;
   sought.points = std::move(spreading.points);
   sought.ids = std::move(spreading.ids);
-  sought.places = locate(comm, containers, sought.points, rules, name + ".locate");
+  sought.places = Locator(comm, rules, false, name + ".locate").find(containers, sought.points);
 
   const bool to_nodes = target.location == Location::node;
   Columns columns;
   {
-    const PlacedNodes nodes(target.mesh, target.nodes,
+    const PlacedNodes nodes(comm, containers.set, target.nodes,
                             to_nodes ? std::span<const Placement>(sought.places) : std::span<const Placement>{},
                             name + ".nodes");
     columns = columns_of(spreading, sought.places, nodes, to_nodes);

@@ -93,7 +93,7 @@ std::vector<Vec3> recovered_gradients(const Partner& source, const std::vector<d
 
 /// Places of all local items, m.
 std::vector<Vec3> places_of(const Partner& side) {
-  if (side.location == Location::node) return side.coordinates;
+  if (side.location != Location::element) return {side.coordinates.begin(), side.coordinates.end()};
   std::vector<Vec3> places;
   for_each_element(*side.mesh, [&](LocalIndex, const ElementBlock& block, LocalIndex e) {
     places.push_back(centre_of(block.kind, corners_of(block, e, side.coordinates)));
@@ -102,9 +102,7 @@ std::vector<Vec3> places_of(const Partner& side) {
 }
 
 std::vector<Vec3> gathered(const RowMap& map, const std::vector<Vec3>& values) {
-  std::vector<Vec3> result(map.slots());
-  map.gather().forward(std::span<const Vec3>(values), std::span<Vec3>(result));
-  return result;
+  return map.gathered(std::span<const Vec3>(values));
 }
 
 /// Greatest |estimate| over the rows of the owned items.

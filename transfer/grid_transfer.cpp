@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -29,7 +30,9 @@ Method choose_method(const FieldDescription& field, const TransferOptions& optio
   const bool interpolated = field.kind == FieldKind::point_value;
   Method method = options.method;
   if (method == Method::automatic) method = interpolated ? Method::interpolate : Method::conserve;
-  if (method == Method::interpolate && field.kind == FieldKind::total)
+  const bool by_values = method == Method::interpolate || method == Method::nearest_projection ||
+                         method == Method::moving_least_squares || method == Method::project;
+  if (by_values && field.kind == FieldKind::total)
     refuse(name, fmt::format("'{}' is a total, an amount per node or element, and cannot be interpolated; use method "
                              "conserve or automatic",
                              field.name));
@@ -53,36 +56,47 @@ void check_options(const TransferOptions& options, const std::string& name) {
     refuse(name, fmt::format("greatest distance {} m is negative", options.greatest_distance));
 }
 
+std::optional<Error> coordinate_error(const Grid& grid, const char* which, const std::string& name) {
+  const std::string& of = grid.mesh ? grid.mesh->source : grid.cloud->source;
+  const std::size_t expected = grid.mesh ? static_cast<std::size_t>(grid.mesh->nodes()) : grid.cloud->ids.size();
+  if (grid.coordinates.size() != expected)
+    return Error(ExitCode::usage, fmt::format("transfer '{}': {} coordinates for {} local {} of the {} {}", name,
+                                              grid.coordinates.size(), expected, grid.mesh ? "nodes" : "points", which,
+                                              of));
+  for (std::size_t n = 0; n < grid.coordinates.size(); ++n) {
+    const Vec3& x = grid.coordinates[n];
+    if (std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2])) continue;
+    return Error(ExitCode::geometry,
+                 fmt::format("transfer '{}': {} {} of the {} {} is at ({}, {}, {}), not a place; the run that moved "
+                             "it has become unstable, or the file is damaged",
+                             name, grid.mesh ? "node" : "point", grid.mesh ? grid.mesh->node_labels[n] : grid.cloud->ids[n],
+                             which, of, x[0], x[1], x[2]));
+  }
+  return std::nullopt;
+}
+
 /// Collective.
 void check_grid(const Grid& grid, const char* which, const std::string& name) {
-  if (!grid.mesh) refuse(name, fmt::format("the {} has no mesh", which));
-  if (grid.location != Location::node && grid.location != Location::element)
-    refuse(name, fmt::format("the {} field lives on a {}; only nodes and elements can be transferred", which,
+  if (!grid.mesh && !grid.cloud) refuse(name, fmt::format("the {} has neither a mesh nor points", which));
+  if (grid.mesh && grid.location != Location::node && grid.location != Location::element)
+    refuse(name, fmt::format("the {} field lives on a {}; of a mesh only nodes and elements can be transferred", which,
                              to_string(grid.location)));
-  const Mesh& mesh = *grid.mesh;
-  std::optional<Error> error;
-  if (grid.coordinates.size() != static_cast<std::size_t>(mesh.nodes()))
-    error = Error(ExitCode::usage, fmt::format("transfer '{}': {} coordinates for {} local nodes of the {} {}", name,
-                                               grid.coordinates.size(), mesh.nodes(), which, mesh.source));
-  for (std::size_t n = 0; !error && n < grid.coordinates.size(); ++n) {
-    const Vec3& x = grid.coordinates[n];
-    if (!std::isfinite(x[0]) || !std::isfinite(x[1]) || !std::isfinite(x[2]))
-      error =
-          Error(ExitCode::geometry,
-                fmt::format("transfer '{}': node {} of the {} {} is at ({}, {}, {}), not a place; the run that moved "
-                            "it has become unstable, or the file is damaged",
-                            name, mesh.node_labels[n], which, mesh.source, x[0], x[1], x[2]));
-  }
-  mesh.comm.throw_if_any(error);
+  if (!grid.mesh && grid.location != Location::particle)
+    refuse(name, fmt::format("the {} field lives on a {}, but {} has only points: its location is particle", which,
+                             to_string(grid.location), grid.cloud->source));
+  const Communicator& comm = grid.mesh ? grid.mesh->comm : grid.cloud->comm;
+  comm.throw_if_any(coordinate_error(grid, which, name));
 }
 
 Partner partner_of(const Grid& grid) {
   Partner partner;
   partner.mesh = grid.mesh;
+  partner.cloud = grid.mesh ? nullptr : grid.cloud;
   partner.location = grid.location;
-  partner.nodes = items_of(*grid.mesh, Location::node);
+  partner.choice = {grid.blocks, grid.sides};
+  partner.nodes = grid.mesh ? items_of(*grid.mesh, Location::node) : items_of(*grid.cloud);
   if (grid.location == Location::element) partner.elements = items_of(*grid.mesh, grid.location);
-  partner.coordinates.assign(grid.coordinates.begin(), grid.coordinates.end());
+  partner.coordinates = grid.coordinates;
   return partner;
 }
 
@@ -102,49 +116,157 @@ void refuse_misses(const Misses& misses, const TransferOptions& options, const s
 
 }  // namespace
 
-Misses count_misses(const Communicator& comm, const Sought& sought) {
+Misses MissCounter::total(const Communicator& comm, GlobalId skipped) const {
   Misses misses;
-  misses.targets = comm.sum(static_cast<std::int64_t>(sought.places.size()));
-  misses.skipped = sought.skipped;
-  std::int64_t outside = 0;
-  std::size_t farthest = 0;
-  double distance = -1;
-  for (std::size_t i = 0; i < sought.places.size(); ++i) {
-    if (!sought.places[i].outside) continue;
-    ++outside;
-    const double d = sought.places[i].distance;
-    // Points of one item stand in canonical order, and items on one rank ascend.
-    if (d > distance) distance = d, farthest = i;
-  }
-  misses.outside = comm.sum(outside);
-  const double greatest = comm.max(distance);
+  misses.targets = comm.sum(targets_);
+  misses.skipped = skipped;
+  misses.outside = comm.sum(outside_);
+  const double greatest = comm.max(distance_);
   if (greatest < 0) return misses;
   misses.greatest_distance = greatest;
-  const GlobalId none = std::numeric_limits<GlobalId>::max();
-  const bool candidate = distance == greatest;
-  const GlobalId first = comm.min(candidate ? sought.ids[farthest] : none);
+  const bool candidate = distance_ == greatest;
+  const GlobalId first = comm.min(candidate ? id_ : std::numeric_limits<GlobalId>::max());
   const double nowhere = -std::numeric_limits<double>::infinity();
-  misses.farthest = {nowhere, nowhere, nowhere};
-  if (candidate && sought.ids[farthest] == first) misses.farthest = sought.points[farthest];
+  misses.farthest = candidate && id_ == first ? point_ : Vec3{nowhere, nowhere, nowhere};
   comm.max(std::span<double>(misses.farthest));
   return misses;
 }
 
-void GridTransfer::Impl::build() {
+namespace {
+
+std::size_t greatest_width(const Partner& source) {
+  int width = 1;
+  for (const ElementBlock& block : source.mesh->blocks) width = std::max(width, topology(block.kind).nodes);
+  return static_cast<std::size_t>(width);
+}
+
+/// Tells coordinates apart that differ in any bit, but for one chance in 2^64.
+std::uint64_t fingerprint(std::span<const Vec3> coordinates) {
+  std::uint64_t hash = coordinates.size();
+  for (const Vec3& x : coordinates)
+    for (const double c : x) hash = std::rotl((hash ^ std::bit_cast<std::uint64_t>(c)) * 0x9e3779b97f4a7c15, 29);
+  return hash;
+}
+
+PointStatus status_of(const Placement& place, bool dropped) {
+  if (dropped) return PointStatus::value;
+  return place.state == PlaceState::outside ? PointStatus::nearest : PointStatus::extrapolated;
+}
+
+/// The faces that nearest_projection projects to: unless the user chose, surface elements, or the skin of solids.
+ElementChoice surface_choice(const Partner& source, const std::string& name) {
+  ElementChoice choice = source.choice;
+  if (!choice.sides.empty()) return choice;
+  std::vector<std::string> surfaces;
+  for (const ElementBlock& block : source.mesh->blocks)
+    if (topology(block.kind).dimension == 2 &&
+        (choice.blocks.empty() || std::find(choice.blocks.begin(), choice.blocks.end(), block.name) != choice.blocks.end()))
+      surfaces.push_back(block.name);
+  if (!surfaces.empty()) {
+    choice.blocks = surfaces;
+  } else {
+    if (!source.mesh->find_side_set("skin"))
+      refuse(name, fmt::format("{} has neither surface elements nor a side set 'skin' to project to; name a side set",
+                               source.mesh->source));
+    choice.sides = "skin";
+  }
+  return choice;
+}
+
+}  // namespace
+
+void GridTransfer::Impl::interpolate(bool again) {
+  if (!source.mesh)
+    refuse(name, fmt::format("{} has only points, no elements to interpolate in; use method moving_least_squares",
+                             source.name()));
+  const bool projection = method == Method::nearest_projection;
+  const PlaceRules rules{options.tolerance, options.outside == OutsidePolicy::extrapolate && !projection};
+  if (!again) {
+    const ElementChoice choice = projection ? surface_choice(source, name) : source.choice;
+    containers = containers_of(*source.mesh, source.coordinates, choice, rules.tolerance, name);
+    locator = std::make_unique<Locator>(comm(), rules, options.moving, name + ".locate");
+  } else {
+    move_containers(containers, *source.mesh, source.coordinates, name);
+  }
+  std::vector<Vec3> centres;
+  std::span<const Vec3> points = target.coordinates;
+  if (target.location == Location::element) centres = local_points(target.side()), points = centres;
+  const std::vector<Placement> places = again ? locator->find_again(containers, points, moved) : locator->find(containers, points);
+  if (locator->decomposed()) moved = 0;
+  const bool drop = options.outside == OutsidePolicy::value;
+  MissCounter counter;
+  for (const LocalIndex item : target.items().owned) {
+    const auto i = static_cast<std::size_t>(item);
+    counter.add(target.items().ids[i], points[i], places[i]);
+  }
+  outside.clear();
+  for (std::size_t i = 0; i < places.size(); ++i)
+    if (places[i].is_outside())
+      outside.push_back({static_cast<LocalIndex>(i), status_of(places[i], drop), places[i].distance});
+  misses = counter.total(comm(), containers.skipped);
+  refuse_misses(misses, options, name);
+  const InterpolationSource from{containers.set, source.nodes, source.location,
+                                 projection ? static_cast<std::size_t>(max_side_nodes) : greatest_width(source),
+                                 source.items().ids.size()};
+  map = interpolation_map(comm(), from, places, drop, options.outside_value, map.take_rows(), name);
+  mean_size = containers.mean_size;
+  if (!options.moving) containers = {};
+}
+
+void GridTransfer::Impl::conserve() {
   Sought sought;
   const PlaceRules rules{options.tolerance, options.outside == OutsidePolicy::extrapolate};
-  if (method == Method::interpolate) {
-    map = interpolation_map(source.side(), target.side(), rules, options.outside == OutsidePolicy::value,
-                            options.outside_value, name, sought);
-    misses = count_misses(comm(), sought);
-    refuse_misses(misses, options, name);
+  Rows rows = conservation_rows(source.side(), target.side(), rules, field.kind == FieldKind::density, name, sought);
+  MissCounter counter;
+  for (std::size_t i = 0; i < sought.places.size(); ++i) counter.add(sought.ids[i], sought.points[i], sought.places[i]);
+  misses = counter.total(comm(), sought.skipped);
+  refuse_misses(misses, options, name);
+  sought = {};
+  rows = share_rows(comm(), target.items(), std::move(rows), name + ".rows");
+  map = RowMap(comm(), rows, name);
+}
+
+/// Where both sides are the same, values are copied whatever the method. False if they are not.
+bool GridTransfer::Impl::copy() {
+  const auto entries = matching_items(source, target);
+  if (!entries) return false;
+  misses = {};
+  misses.targets = comm().sum(static_cast<std::int64_t>(target.items().owned.size()));
+  outside.clear();
+  PointRows rows = map.take_rows();
+  rows.resize(1, entries->size());
+  constexpr double one = 1;
+  if (comm().size() == 1) {
+    for (std::size_t i = 0; i < entries->size(); ++i)
+      rows.set(i, std::span(&one, 1), [&](std::size_t) { return (*entries)[i].index; });
+    map = RowMap(std::move(rows), 0, source.items().ids.size());
+    return true;
+  }
+  SlotTable wanted;
+  for (const DirectoryEntry& entry : *entries) wanted.mark(entry.rank, entry.index);
+  wanted.number();
+  for (std::size_t i = 0; i < entries->size(); ++i)
+    rows.set(i, std::span(&one, 1), [&](std::size_t) { return wanted.slot((*entries)[i].rank, (*entries)[i].index); });
+  map = RowMap(comm(), std::move(rows), 0, wanted, name);
+  return true;
+}
+
+void GridTransfer::Impl::build(bool again) {
+  copied = copy();
+  if (copied) {
+    locator.reset();
+  } else if (method == Method::copy) {
+    refuse(name, fmt::format("method copy needs the same items at the same places on both sides, with the same ids; {} "
+                             "and {} differ: use method automatic",
+                             source.name(), target.name()));
+  } else if (method == Method::conserve) {
+    conserve();
   } else {
-    Rows rows = conservation_rows(source.side(), target.side(), rules, field.kind == FieldKind::density, name, sought);
-    misses = count_misses(comm(), sought);
-    refuse_misses(misses, options, name);
-    sought = {};
-    rows = share_rows(comm(), target.items(), std::move(rows), name + ".rows");
-    map = RowMap(comm(), rows, name);
+    interpolate(again && options.moving && locator != nullptr);
+  }
+  for (Partner* partner : {&source, &target}) {
+    partner->built_fingerprint = fingerprint(partner->coordinates);
+    if (options.moving) partner->built.assign(partner->coordinates.begin(), partner->coordinates.end());
   }
   source.volumes.clear();
   target.volumes.clear();
@@ -153,25 +275,32 @@ void GridTransfer::Impl::build() {
 
 void GridTransfer::Impl::apply(std::span<const TransferItem> fields) const {
   std::size_t width = 0;
-  for (const TransferItem& f : fields) width += static_cast<std::size_t>(f.components);
+  for (const TransferItem& f : fields) {
+    const auto n = static_cast<std::size_t>(f.components);
+    assert(f.source.size() == n * source.items().ids.size() && f.target.size() == n * target.items().ids.size());
+    width += n;
+  }
+  ++applied;
+  if (map.direct()) {
+    for (const TransferItem& f : fields) map.multiply(f.source, f.target, f.components);
+    return;
+  }
   if (gathered.size() < width * map.slots()) gathered.resize(width * map.slots());
   messages.clear();
   double* place = gathered.data();
   for (const TransferItem& f : fields) {
     const auto n = static_cast<std::size_t>(f.components);
-    assert(f.source.size() == n * source.items().ids.size() && f.target.size() == n * target.items().ids.size());
     messages.push_back(
         {reinterpret_cast<const std::byte*>(f.source.data()), reinterpret_cast<std::byte*>(place), n * sizeof(double)});
     place += n * map.slots();
   }
-  map.gather().forward(std::span<const ExchangeItem>(messages));
+  map.gather(messages);
   place = gathered.data();
   for (const TransferItem& f : fields) {
     const auto n = static_cast<std::size_t>(f.components);
     map.multiply({place, n * map.slots()}, f.target, f.components);
     place += n * map.slots();
   }
-  ++applied;
 }
 
 GridTransfer::GridTransfer(const Grid& source, const Grid& target, const FieldDescription& field,
@@ -186,7 +315,7 @@ GridTransfer::GridTransfer(const Grid& source, const Grid& target, const FieldDe
   check_grid(target, "target", impl_->name);
   impl_->source = partner_of(source);
   impl_->target = partner_of(target);
-  impl_->build();
+  impl_->build(false);
 }
 
 GridTransfer::~GridTransfer() = default;
@@ -201,28 +330,59 @@ void GridTransfer::apply(std::span<const TransferItem> fields) const {
 }
 
 bool GridTransfer::update(std::span<const Vec3> source_coordinates, std::span<const Vec3> target_coordinates) {
-  const auto moved = [](const Partner& partner, std::span<const Vec3> now) {
-    return !std::equal(now.begin(), now.end(), partner.coordinates.begin(), partner.coordinates.end());
+  Impl& impl = *impl_;
+  const auto checked = [&](const Partner& partner, std::span<const Vec3> now, const char* which) {
+    check_grid({partner.mesh, now, partner.location, partner.cloud}, which, impl.name);
+    return now;
   };
-  if (!impl_->comm().any(moved(impl_->source, source_coordinates) || moved(impl_->target, target_coordinates)))
-    return false;
-  check_grid({impl_->source.mesh, source_coordinates, impl_->source.location}, "source", impl_->name);
-  check_grid({impl_->target.mesh, target_coordinates, impl_->target.location}, "target", impl_->name);
-  impl_->source.coordinates.assign(source_coordinates.begin(), source_coordinates.end());
-  impl_->target.coordinates.assign(target_coordinates.begin(), target_coordinates.end());
-  impl_->build();
+  impl.source.coordinates = checked(impl.source, source_coordinates, "source");
+  impl.target.coordinates = checked(impl.target, target_coordinates, "target");
+  const auto same = [](const Partner& partner) { return fingerprint(partner.coordinates) == partner.built_fingerprint; };
+  if (!impl.comm().any(!same(impl.source) || !same(impl.target))) return false;
+  if (impl.options.moving) {
+    double farthest = 0;  // squared
+    for (const Partner* partner : {&impl.source, &impl.target})
+      for (std::size_t i = 0; i < partner->built.size(); ++i) {
+        const Vec3 way = partner->coordinates[i] - partner->built[i];
+        farthest = std::max(farthest, dot(way, way));
+      }
+    farthest = std::sqrt(impl.comm().max(farthest));
+    constexpr double rigid_tolerance = 1e-10;  // of an element's size
+    if (moved_rigidly(impl.source, impl.target, rigid_tolerance * impl.mean_size)) {
+      ++impl.rigid;
+      return false;
+    }
+    impl.moved += farthest;
+  }
+  impl.build(true);
   return true;
 }
 
 std::int64_t GridTransfer::memory() const {
   const auto bytes = [](const auto& v) { return static_cast<std::int64_t>(v.capacity() * sizeof(v[0])); };
-  std::int64_t sum = impl_->map.memory() + bytes(impl_->gathered) + bytes(impl_->messages);
-  for (const Partner* p : {&impl_->source, &impl_->target}) {
-    sum += bytes(p->coordinates) + bytes(p->volumes);
-    for (const Items* items : {&p->nodes, &p->elements})
-      sum += bytes(items->ids) + bytes(items->owners) + bytes(items->at_owner) + bytes(items->owned);
+  std::int64_t sum = impl_->map.memory() + bytes(impl_->gathered) + bytes(impl_->messages) + bytes(impl_->outside);
+  for (const Partner* p : {&impl_->source, &impl_->target})
+    sum += bytes(p->built) + bytes(p->volumes) + p->nodes.memory() + p->elements.memory();
+  const ElementSet& set = impl_->containers.set;
+  sum += bytes(set.x) + bytes(set.nodes) + bytes(set.ids) + bytes(set.items) + bytes(set.boxes);
+  return sum + (impl_->locator ? impl_->locator->memory() : 0);
+}
+
+std::int64_t GridTransfer::rigid_motions() const {
+  return impl_->rigid;
+}
+
+std::int64_t GridTransfer::searched() const {
+  return impl_->locator ? impl_->locator->searched() : 0;
+}
+
+void GridTransfer::status(std::span<PointStatus> status, std::span<double> distance) const {
+  std::fill(status.begin(), status.end(), PointStatus::inside);
+  std::fill(distance.begin(), distance.end(), 0.0);
+  for (const OutsideItem& item : impl_->outside) {
+    status[static_cast<std::size_t>(item.item)] = item.status;
+    distance[static_cast<std::size_t>(item.item)] = item.distance;
   }
-  return sum;
 }
 
 std::int64_t GridTransfer::built() const {

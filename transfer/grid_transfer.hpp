@@ -11,10 +11,20 @@
 #include "framework/comm/exchange_plan.hpp"
 #include "framework/fields/field.hpp"
 #include "framework/mesh/mesh.hpp"
+#include "transfer/point_cloud.hpp"
 
 namespace tenon::transfer {
 
-enum class Method { automatic, interpolate, conserve };
+/// How a field is carried over.
+enum class Method {
+  automatic,             ///< point values are interpolated, densities and totals conserved
+  interpolate,           ///< shape functions of the source element that holds the point: second order, linear-exact
+  nearest_projection,    ///< the same on the source's surface, at the foot of the perpendicular
+  conserve,              ///< the transpose of interpolation: sums are kept, node by node
+  project,               ///< L2 projection: second order, integrals are kept
+  moving_least_squares,  ///< linear-exact fit to the source's nearest points: from points without a mesh
+  copy                   ///< the same items on both sides, bit for bit; interpolation finds that by itself
+};
 
 /// What a target point outside the source mesh receives.
 enum class OutsidePolicy {
@@ -32,14 +42,29 @@ struct TransferOptions {
   double greatest_distance = std::numeric_limits<double>::infinity();
   /// Points nearer than this fraction of an element's size count as inside.
   double tolerance = 1e-9;
+  /// update() will be called often: keeps what makes it cheap (the decomposition, the tree, each point's element).
+  bool moving = false;
 };
 
-/// One side: a mesh, where it stands now, and where the field lives. `coordinates` are of all local nodes and must
-/// stay valid while the map is built.
+/// One side: a mesh or a cloud of points, where it stands now, and where the field lives. `coordinates` are of all local
+/// nodes, or of the points of the cloud; they must stay valid, and unchanged, as long as the map is used or until
+/// update() gives others.
 struct Grid {
   const Mesh* mesh = nullptr;
   std::span<const Vec3> coordinates;
-  Location location = Location::node;  ///< node or element (a value per element, at its centre)
+  Location location = Location::node;   ///< node or element (a value per element, at its centre); particle of a cloud
+  const PointCloud* cloud = nullptr;    ///< instead of a mesh
+  std::vector<std::string> blocks = {};  ///< of a source: the blocks that points are sought in; empty: all
+  std::string sides = {};  ///< of a source of nearest_projection: the side set that points are projected to; empty: the
+                           ///< surface elements, or the skin of a mesh of solids
+};
+
+/// What became of a target item.
+enum class PointStatus : std::uint8_t {
+  inside,        ///< in an element
+  nearest,       ///< outside: has the value of the nearest point
+  extrapolated,  ///< outside: linear-exact
+  value          ///< outside: has the given value
 };
 
 /// What a map or an application of it did, the same on every rank.
@@ -91,8 +116,10 @@ class GridTransfer {
   /// Collective. Several fields at once, each as above: one message per neighbour for all of them.
   void apply(std::span<const TransferItem> fields) const;
 
-  /// Collective. Rebuilds the map where the meshes stand now, unless no coordinate has changed on any rank. Returns
-  /// whether it was rebuilt.
+  /// Collective. Rebuilds the map where the meshes stand now, as far as their motion demands: not at all if no
+  /// coordinate has changed on any rank or if all have followed one rigid motion (to 1e-10 of an element's size); with
+  /// TransferOptions::moving, points that are still inside their elements are not sought again. Where elements do not
+  /// overlap, the map is, bit for bit, that which a new GridTransfer would make. Returns whether it was rebuilt.
   bool update(std::span<const Vec3> source_coordinates, std::span<const Vec3> target_coordinates);
 
   /// Collective. Misses of the map, and integrals and error estimate of these values.
@@ -101,6 +128,12 @@ class GridTransfer {
   std::int64_t memory() const;
   std::int64_t built() const;
   std::int64_t applied() const;
+  /// Updates that a rigid common motion made needless; points that the last build or update searched for on this rank.
+  std::int64_t rigid_motions() const;
+  std::int64_t searched() const;
+  /// Local: status, and distance from the source (m; 0 inside), of all local target items. Of interpolation; other
+  /// methods have all inside.
+  void status(std::span<PointStatus> status, std::span<double> distance) const;
   /// Whether the map interpolates or conserves; never automatic.
   Method method() const;
 

@@ -2,24 +2,33 @@
 // What a GridTransfer holds; shared by the files that build, apply and report.
 #pragma once
 
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "framework/comm/directory.hpp"
 #include "transfer/grid_transfer.hpp"
 #include "transfer/rows.hpp"
 
 namespace tenon::transfer {
 
-/// One mesh of the pair, as it stood when the map was built.
+/// One side of the pair.
 struct Partner {
-  const Mesh* mesh = nullptr;
+  const Mesh* mesh = nullptr;  ///< or a cloud
+  const PointCloud* cloud = nullptr;
   Location location = Location::node;
-  Items nodes, elements;  ///< elements only where the field lives on them
-  std::vector<Vec3> coordinates;
-  mutable std::vector<double> volumes;  ///< of the items, m^3; worked out by the first report
+  ElementChoice choice;
+  Items nodes, elements;                   ///< elements only where the field lives on them; nodes: or points
+  std::span<const Vec3> coordinates;       ///< the caller's, m
+  std::uint64_t built_fingerprint = 0;     ///< of the coordinates that the map was built for
+  std::vector<Vec3> built;                 ///< and themselves, if it is to follow motion
+  mutable std::vector<double> volumes;     ///< of the items, m^3; worked out by the first report
 
-  const Items& items() const { return location == Location::node ? nodes : elements; }
+  const Communicator& comm() const { return mesh ? mesh->comm : cloud->comm; }
+  const Items& items() const { return location == Location::element ? elements : nodes; }
   Side side() const { return {*mesh, coordinates, location, nodes, items()}; }
+  const std::string& name() const { return mesh ? mesh->source : cloud->source; }
 };
 
 /// Points outside, the same on every rank.
@@ -27,6 +36,13 @@ struct Misses {
   GlobalId targets = 0, outside = 0, skipped = 0;
   double greatest_distance = 0;
   Vec3 farthest{};
+};
+
+/// A target item outside the source.
+struct OutsideItem {
+  LocalIndex item;
+  PointStatus status;
+  double distance;  ///< m
 };
 
 struct GridTransfer::Impl {
@@ -37,20 +53,54 @@ struct GridTransfer::Impl {
   Partner source, target;
   RowMap map;
   Misses misses;
-  std::int64_t built = 0;
+  std::vector<OutsideItem> outside;
+  std::int64_t built = 0, rigid = 0;
+  bool copied = false;  ///< the sides match, and values are copied
+
+  // Of interpolation that follows motion.
+  Containers containers;
+  std::unique_ptr<Locator> locator;
+  double mean_size = 0;  ///< of the elements that points are sought in, m
+  double moved = 0;  ///< since the rendezvous was made, on any rank, m
 
   // Scratch and counter of apply; grow to what is needed once.
   mutable std::int64_t applied = 0;
   mutable std::vector<double> gathered;
   mutable std::vector<ExchangeItem> messages;
 
-  const Communicator& comm() const { return target.mesh->comm; }
-  void build();
+  const Communicator& comm() const { return target.comm(); }
+  void build(bool again);
+  void interpolate(bool again);
+  void conserve();
+  bool copy();
   void apply(std::span<const TransferItem> fields) const;
 };
 
-/// Collective. Counts the points outside and finds the farthest (of equals, that of the smallest id).
-Misses count_misses(const Communicator& comm, const Sought& sought);
+/// Collective. Counts points outside and finds the farthest (of equals, that of the smallest id).
+class MissCounter {
+ public:
+  void add(GlobalId id, const Vec3& point, const Placement& place) {
+    ++targets_;
+    if (!place.is_outside()) return;
+    ++outside_;
+    // Points of one item stand in canonical order, and items on one rank ascend.
+    if (place.distance > distance_) distance_ = place.distance, id_ = id, point_ = point;
+  }
+  Misses total(const Communicator& comm, GlobalId skipped) const;
+
+ private:
+  std::int64_t targets_ = 0, outside_ = 0;
+  double distance_ = -1;
+  GlobalId id_ = no_id;
+  Vec3 point_{};
+};
+
+/// Collective. Whether both sides have the same items at the same places (same ids), and if so where each target item's
+/// source is kept.
+std::optional<std::vector<DirectoryEntry>> matching_items(const Partner& source, const Partner& target);
+
+/// Collective. Whether both meshes have moved as one rigid body since their maps were built, to `tolerance` (m).
+bool moved_rigidly(const Partner& source, const Partner& target, double tolerance);
 
 /// Collective. Estimate of the greatest error of interpolated values, unit of the field.
 double interpolation_error(const Partner& source, const Partner& target, const RowMap& map,

@@ -10,9 +10,9 @@
 
 namespace tenon::transfer {
 
-/// A point and the corners of an element, as they lie in memory: eight Vec3, one more double may be read behind them.
+/// A point and the corners of an element: x[nodes[a]]. One more double may be read behind each.
 struct HexTask {
-  const Vec3* corners;
+  const LocalIndex* nodes;
   const Vec3* point;
 };
 
@@ -27,9 +27,9 @@ struct HexCorners {
   Pack x[8][3];
 };
 
-TENON_KERNEL HexCorners hex_corners(const std::array<HexTask, 4>& tasks) {
+TENON_KERNEL HexCorners hex_corners(const Vec3* x, const std::array<HexTask, 4>& tasks) {
   HexCorners result;
-  const auto at = [](const Vec3* v) { return load(v->data()); };
+  const auto at = [&](std::size_t task, int i) { return load(x[tasks[task].nodes[i]].data()); };
   Pack p[4];
   for (int l = 0; l < 4; ++l) {
     const Vec3& point = *tasks[static_cast<std::size_t>(l)].point;
@@ -37,8 +37,7 @@ TENON_KERNEL HexCorners hex_corners(const std::array<HexTask, 4>& tasks) {
   }
 #pragma GCC unroll 8
   for (int i = 0; i < 8; ++i) {
-    Pack a = at(tasks[0].corners + i) - p[0], b = at(tasks[1].corners + i) - p[1];
-    Pack c = at(tasks[2].corners + i) - p[2], d = at(tasks[3].corners + i) - p[3];
+    Pack a = at(0, i) - p[0], b = at(1, i) - p[1], c = at(2, i) - p[2], d = at(3, i) - p[3];
     transpose(a, b, c, d);
     result.x[i][0] = a, result.x[i][1] = b, result.x[i][2] = c;
   }
@@ -123,33 +122,19 @@ TENON_KERNEL Pack hex_overshoot(const HexLocal& at) {
   return greater_of(greatest_of(at.xi, at.eta, at.zeta) - 1.0, Pack{});
 }
 
-/// Shape functions within the element, not negative, their sum 1 to within an ulp; exactly one corner if the point is
-/// that corner.
-TENON_KERNEL void hex_weights(const HexCorners& corners, const HexLocal& at, Pack (&w)[8]) {
-  const Pack one = broadcast<Pack>(1.0), half = broadcast<Pack>(0.5);
+/// Local coordinates put within the element; exactly a corner's if the point is that corner.
+TENON_KERNEL void put_within(const HexCorners& corners, HexLocal& at) {
+  const Pack one = broadcast<Pack>(1.0);
   const auto within = [&](const Pack& v) { return lesser_of(greater_of(v, -one), one); };
-  const Pack xi = within(at.xi), eta = within(at.eta), zeta = within(at.zeta);
-  const Pack xl = half - half * xi, xh = half + half * xi, yl = half - half * eta, yh = half + half * eta;
-  const Pack zl = half - half * zeta, zh = half + half * zeta;
-  const Pack ll = xl * yl, hl = xh * yl, hh = xh * yh, lh = xl * yh;
-  w[0] = ll * zl, w[1] = hl * zl, w[2] = hh * zl, w[3] = lh * zl;
-  w[4] = ll * zh, w[5] = hl * zh, w[6] = hh * zh, w[7] = lh * zh;
-  Pack greatest = Pack{};
-#pragma GCC unroll 8
-  for (int a = 0; a < 8; ++a) w[a] = w[a] > 1e-15 ? w[a] : Pack{}, greatest = greater_of(w[a], greatest);
-  PackMask is[8], found = PackMask{};
-#pragma GCC unroll 8
-  for (int a = 0; a < 8; ++a) is[a] = (w[a] == greatest) & ~found, found |= is[a];
-  for (int repeat = 0; repeat < 2; ++repeat) {
-    Pack sum = Pack{};
-    for (int a = 0; a < 8; ++a) sum += w[a];
-    for (int a = 0; a < 8; ++a) w[a] = is[a] ? w[a] + (1.0 - sum) : w[a];
-  }
-#pragma GCC unroll 8
+  at.xi = within(at.xi), at.eta = within(at.eta), at.zeta = within(at.zeta);
+  const Pack least = lesser_of(lesser_of(magnitude(at.xi), magnitude(at.eta)), magnitude(at.zeta));
+  if (!any(least > 1 - 1e-9)) return;
+  const auto nearest = [&](const Pack& v) { return v < 0.0 ? -one : one; };
   for (int a = 0; a < 8; ++a) {
     const PackMask here = (corners.x[a][0] == 0.0) & (corners.x[a][1] == 0.0) & (corners.x[a][2] == 0.0);
-    if (!any(here)) continue;
-    for (int b = 0; b < 8; ++b) w[b] = here ? broadcast<Pack>(a == b ? 1.0 : 0.0) : w[b];
+    at.xi = here ? nearest(at.xi) : at.xi;
+    at.eta = here ? nearest(at.eta) : at.eta;
+    at.zeta = here ? nearest(at.zeta) : at.zeta;
   }
 }
 

@@ -20,9 +20,6 @@ std::vector<Vec3> item_points(const Side& side) {
   return points;
 }
 
-namespace {
-
-/// Local items that another rank owns know by themselves where they are: no row needs to travel.
 std::vector<Vec3> local_points(const Side& side) {
   if (side.location == Location::node) return {side.coordinates.begin(), side.coordinates.end()};
   std::vector<Vec3> points;
@@ -33,63 +30,93 @@ std::vector<Vec3> local_points(const Side& side) {
   return points;
 }
 
-int greatest_width(const Side& source) {
-  int width = 1;
-  for (const ElementBlock& block : source.mesh.blocks)
-    if (source.location == Location::node) width = std::max(width, topology(block.kind).nodes);
-  return width;
+namespace {
+
+/// Weights below this are round-off.
+constexpr double negligible = 1e-15;
+
+/// Shape functions of a hexahedron at a place within it, of the first and of the last four nodes.
+TENON_KERNEL void hexahedron_weights(const Vec3& xi, Pack& low, Pack& high) {
+  const double xl = 0.5 - 0.5 * xi[0], xh = 0.5 + 0.5 * xi[0], yl = 0.5 - 0.5 * xi[1], yh = 0.5 + 0.5 * xi[1];
+  const double zl = 0.5 - 0.5 * xi[2], zh = 0.5 + 0.5 * xi[2];
+  const Pack in_plane = Pack{xl, xh, xh, xl} * Pack{yl, yl, yh, yh};
+  low = in_plane * zl, high = in_plane * zh;
+  low = low > negligible ? low : Pack{}, high = high > negligible ? high : Pack{};
 }
 
-/// Keeps the owned items of what was sought.
-void keep_owned(const Side& target, Sought& sought) {
-  const std::vector<LocalIndex>& owned = target.items.owned;
-  for (const LocalIndex i : owned) sought.ids.push_back(target.items.ids[static_cast<std::size_t>(i)]);
-  if (owned.size() == sought.points.size()) return;
-  for (std::size_t k = 0; k < owned.size(); ++k) {
-    const auto i = static_cast<std::size_t>(owned[k]);
-    sought.points[k] = sought.points[i], sought.places[k] = sought.places[i];
+/// Rows of points that take the values of nodes; nodes_of(i): where the nodes of the element of placement i are kept.
+template <typename NodesOf>
+void set_node_rows(PointRows& rows, std::span<const Placement> places, bool drop_outside, NodesOf nodes_of) {
+  std::array<double, max_nodes> weights;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Placement& place = places[i];
+    if (place.is_outside() && drop_outside) {
+      rows.set_empty(i);
+      continue;
+    }
+    const LocalIndex* const slots = nodes_of(i);
+    const bool within = place.state == PlaceState::inside || place.state == PlaceState::outside;
+    if (place.kind == ElementKind::hex8 && within && rows.width() == 8) {
+      Pack low, high;
+      hexahedron_weights(place.xi, low, high);
+      rows.set_hexahedron(i, low, high, slots);
+      continue;
+    }
+    const std::span<double> w = std::span(weights).first(place.nodes());
+    shape_weights(place, w);
+    rows.set(i, w, [&](std::size_t a) { return slots[a]; });
   }
-  sought.points.resize(owned.size()), sought.places.resize(owned.size());
+}
+
+template <typename SlotOf>
+void set_element_rows(PointRows& rows, std::span<const Placement> places, bool drop_outside, SlotOf slot_of) {
+  constexpr double one = 1;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (places[i].is_outside() && drop_outside)
+      rows.set_empty(i);
+    else
+      rows.set(i, std::span(&one, 1), [&](std::size_t) { return slot_of(places[i]); });
 }
 
 }  // namespace
 
-RowMap interpolation_map(const Side& source, const Side& target, const PlaceRules& rules, bool drop_outside,
-                         double empty_value, const std::string& name, Sought& sought) {
-  const Communicator& comm = target.mesh.comm;
-  {
-    const Containers containers = containers_of(source.mesh, source.coordinates, rules.tolerance, name);
-    sought.skipped = containers.skipped;
-    sought.points = local_points(target);
-    sought.places = locate(comm, containers, sought.points, rules, name + ".locate");
+RowMap interpolation_map(const Communicator& comm, const InterpolationSource& source, std::span<const Placement> places,
+                         bool drop_outside, double empty_value, PointRows&& room, const std::string& name) {
+  PointRows rows = std::move(room);
+  const bool nodal = source.location == Location::node;
+  rows.resize(nodal ? source.width : 1, places.size());
+  if (comm.size() == 1) {
+    if (nodal)
+      set_node_rows(rows, places, drop_outside,
+                    [&](std::size_t i) { return source.elements.nodes_of(places[i].at_owner); });
+    else
+      set_element_rows(rows, places, drop_outside, [](const Placement& place) { return place.item; });
+    return RowMap(std::move(rows), empty_value, source.local_items);
   }
-  PointRows rows(greatest_width(source), sought.places.size());
-  if (source.location == Location::node) {
-    const PlacedNodes nodes(source.mesh, source.nodes, sought.places, name + ".nodes");
-    rows.take_items(nodes.elements(), [&](std::size_t e, SlotTable& table) {
-      const ElementNodes& at = nodes.element(e);
-      for (std::size_t a = 0; a < at.count(); ++a) table.mark(at.owner[a], at.at_owner[a]);
-    });
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      const Placement& place = sought.places[i];
-      if (place.outside && drop_outside) continue;
-      const ElementNodes& at = nodes.of(i);
-      rows.set(i, std::span(place.weights).first(static_cast<std::size_t>(topology(place.kind).nodes)),
-               [&](std::size_t a) { return rows.slot(at.owner[a], at.at_owner[a]); });
-    }
-  } else {
-    rows.take_items(rows.size(), [&](std::size_t i, SlotTable& table) {
-      if (sought.places[i].element != no_id) table.mark(sought.places[i].owner, sought.places[i].item);
-    });
-    constexpr double one = 1;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      const Placement& place = sought.places[i];
-      if (place.outside && drop_outside) continue;
-      rows.set(i, std::span(&one, 1), [&](std::size_t) { return rows.slot(place.owner, place.item); });
-    }
+  SlotTable wanted;
+  if (!nodal) {
+    for (const Placement& place : places) wanted.mark(place.owner, place.item);
+    wanted.number();
+    set_element_rows(rows, places, drop_outside,
+                     [&](const Placement& place) { return wanted.slot(place.owner, place.item); });
+    return RowMap(comm, std::move(rows), empty_value, wanted, name);
   }
-  keep_owned(target, sought);
-  return RowMap(comm, std::move(rows), empty_value, name);
+  const PlacedNodes nodes(comm, source.elements, source.nodes, places, name + ".nodes");
+  const auto for_each_node = [&](auto&& visit) {
+    for (std::size_t e = 0; e < nodes.elements(); ++e) {
+      const PlacedNodes::Nodes at = nodes.element(e);
+      for (std::size_t a = 0; a < nodes.count(e); ++a) visit(e, a, at);
+    }
+  };
+  for_each_node([&](std::size_t, std::size_t a, const PlacedNodes::Nodes& at) { wanted.mark(at.owner[a], at.at_owner[a]); });
+  wanted.number();
+  const std::size_t stride = nodes.stride();
+  std::vector<LocalIndex> slots(nodes.elements() * stride, 0);
+  for_each_node([&](std::size_t e, std::size_t a, const PlacedNodes::Nodes& at) {
+    slots[e * stride + a] = wanted.slot(at.owner[a], at.at_owner[a]);
+  });
+  set_node_rows(rows, places, drop_outside, [&](std::size_t i) { return slots.data() + nodes.element_of(i) * stride; });
+  return RowMap(comm, std::move(rows), empty_value, wanted, name);
 }
 
 }  // namespace tenon::transfer

@@ -2,57 +2,93 @@
 // The rendezvous: where the points of all ranks lie in the elements of all ranks.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "framework/mesh/mesh.hpp"
+#include "framework/search/distributed_search.hpp"
 #include "transfer/place.hpp"
 
 namespace tenon::transfer {
 
-/// The elements of a mesh that can contain points, where they stand now.
-struct Containers {
-  std::vector<ElementPacket> elements;  ///< owned by this rank
-  std::vector<Box> boxes;               ///< of them, a little larger
-  double mean_size = 0;                 ///< over all ranks, m
-  GlobalId skipped = 0;                 ///< elements without volume, over all ranks
-};
-
-/// Collective. Throws Error(geometry) naming an inverted element, Error(usage) for elements that are not solids.
-Containers containers_of(const Mesh& mesh, std::span<const Vec3> coordinates, double tolerance,
-                         const std::string& transfer);
-
-/// Collective. The placement of each point of this rank, in order: every point gets an element if there is any at all,
-/// however far, on any number of ranks. Points outside cost little while they are nearer than about half an element:
-/// those are settled in the first rendezvous, only the others go to further ones, of doubling reach.
-std::vector<Placement> locate(const Communicator& comm, const Containers& containers, std::span<const Vec3> points,
-                              const PlaceRules& rules, const std::string& name);
-
-/// The nodes of an element, where their owners keep them.
-struct ElementNodes {
-  std::array<GlobalId, max_nodes> id{};
-  std::array<int, max_nodes> owner{};
-  std::array<LocalIndex, max_nodes> at_owner{};
-  std::int32_t nodes = 0;
-  std::size_t count() const { return static_cast<std::size_t>(nodes); }
-};
-
-/// The nodes of the elements that points were placed in, fetched from the elements' owners.
-class PlacedNodes {
+/// Finds points in the elements of a mesh, and, if it is to serve again, keeps what serves again: the decomposition of
+/// the rendezvous, the tree, and the element that each point was in.
+class Locator {
  public:
-  /// Collective. `nodes` are the items of the mesh that the points were placed in.
-  PlacedNodes(const Mesh& mesh, const Items& nodes, std::span<const Placement> placements, const std::string& name);
-  const ElementNodes& of(std::size_t placement) const {
-    return nodes_[static_cast<std::size_t>(element_of_[placement])];
-  }
-  /// The distinct elements.
-  std::size_t elements() const { return nodes_.size(); }
-  const ElementNodes& element(std::size_t i) const { return nodes_[i]; }
+  /// `moving`: find_again() will be called. All calls are collective.
+  Locator(const Communicator& comm, const PlaceRules& rules, bool moving, std::string name)
+      : comm_(comm), rules_(rules), moving_(moving), name_(std::move(name)) {}
+
+  /// The placement of each point of this rank, in order: every point gets an element if there is any at all, however
+  /// far, on any number of ranks. Points outside cost little while they are nearer than about half an element: those
+  /// are settled in the first rendezvous, only the others go to further ones, of doubling reach.
+  std::vector<Placement> find(const Containers& containers, std::span<const Vec3> points);
+
+  /// The same points and elements, moved by at most `moved` (m) since find(), on any rank. Rebuilds as little as the
+  /// motion demands. The placements are those of find(), bit for bit, except where elements overlap: there a point stays
+  /// in its element while it is inside.
+  std::vector<Placement> find_again(const Containers& containers, std::span<const Vec3> points, double moved);
+
+  /// Local: points that the last call searched for, rather than found in their element.
+  std::int64_t searched() const { return searched_; }
+  /// Whether the last call made a new decomposition.
+  bool decomposed() const { return decomposed_; }
+  std::int64_t memory() const;
 
  private:
+  void bring_elements(const Containers& containers);
+  void build(const Containers& containers, std::span<const Vec3> points);
+  std::vector<Placement> search(const Containers& containers, std::span<const Vec3> points, bool again);
+  void look_farther(const Containers& containers, std::span<const Vec3> points, std::vector<Placement>& places) const;
+  const ElementSet& elements(const Containers& containers) const { return comm_.size() == 1 ? containers.set : arrived_; }
+  void forget();
+
+  Communicator comm_;
+  PlaceRules rules_;
+  bool moving_;
+  std::string name_;
+  double reach_ = 0, skin_ = 0;
+  Rcb rcb_{comm_};
+  std::unique_ptr<DistributedSearch> search_;  // none on one rank
+  ElementSet arrived_;
+  BoxTree tree_;
+  std::vector<LocalIndex> held_;  // of the points here
+  std::vector<float> work_;       // of the points of this rank, for the balance of the next decomposition
+  std::int64_t searched_ = 0;
+  bool decomposed_ = false;
+};
+
+/// Where the nodes of elements that points were placed in are kept by their owners, fetched from the elements' owners.
+class PlacedNodes {
+ public:
+  /// The nodes of one element.
+  struct Nodes {
+    const GlobalId* id;
+    const int* owner;
+    const LocalIndex* at_owner;
+  };
+  /// Collective. `nodes` are the items of the mesh that `elements` were taken from.
+  PlacedNodes(const Communicator& comm, const ElementSet& elements, const Items& nodes,
+              std::span<const Placement> placements, const std::string& name);
+  Nodes of(std::size_t placement) const { return element(element_of(placement)); }
+  std::size_t element_of(std::size_t placement) const { return static_cast<std::size_t>(element_of_[placement]); }
+  std::size_t stride() const { return stride_; }
+  /// The distinct elements.
+  std::size_t elements() const { return count_.size(); }
+  Nodes element(std::size_t i) const {
+    return {id_.data() + i * stride_, owner_.data() + i * stride_, at_owner_.data() + i * stride_};
+  }
+  std::size_t count(std::size_t element) const { return static_cast<std::size_t>(count_[element]); }
+
+ private:
+  std::size_t stride_ = 0;
   std::vector<LocalIndex> element_of_;
-  std::vector<ElementNodes> nodes_;
+  std::vector<GlobalId> id_;
+  std::vector<int> owner_;
+  std::vector<LocalIndex> at_owner_;
+  std::vector<std::int8_t> count_;
 };
 
 }  // namespace tenon::transfer

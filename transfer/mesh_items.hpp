@@ -9,22 +9,35 @@
 
 #include "framework/fields/field.hpp"
 #include "framework/mesh/mesh.hpp"
+#include "transfer/point_cloud.hpp"
 
 namespace tenon::transfer {
 
 inline constexpr auto max_nodes = static_cast<std::size_t>(max_element_nodes);
 
-/// Local items of one location, owned and ghost, ascending by global id.
+/// Local items of one location, owned and ghost, ascending by global id. Looks into the mesh or the cloud, which must
+/// outlive it; what is not there stands in its own store.
 struct Items {
-  std::vector<GlobalId> ids;
-  std::vector<int> owners;
-  std::vector<LocalIndex> at_owner;  ///< place in the owner's array; no_index for ghost elements (nobody needs it)
-  std::vector<LocalIndex> owned;     ///< local indices, ascending
+  std::span<const GlobalId> ids;
+  std::span<const int> owners;
+  std::span<const LocalIndex> at_owner;  ///< place in the owner's array; no_index for ghost elements (nobody needs it)
+  std::span<const LocalIndex> owned;     ///< local indices, ascending
   LocalIndex size() const { return static_cast<LocalIndex>(ids.size()); }
+  std::int64_t memory() const;
+
+  Items() = default;
+  Items(Items&&) = default;
+  Items& operator=(Items&&) = default;
+
+  std::vector<GlobalId> own_ids;
+  std::vector<int> own_owners;
+  std::vector<LocalIndex> own_at_owner, own_owned;
 };
 
 /// Collective. `location` is node or element.
 Items items_of(const Mesh& mesh, Location location);
+/// Collective. The points of a cloud, all of them owned.
+Items items_of(const PointCloud& cloud);
 /// Number of local items.
 LocalIndex item_count(const Mesh& mesh, Location location);
 

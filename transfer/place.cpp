@@ -16,19 +16,56 @@ constexpr double on_surface = 1e-12;
 /// Weights below this are round-off.
 constexpr double negligible = 1e-15;
 
-/// The nearest local coordinates within the reference element, for points that are outside by less than a tolerance.
+/// Local coordinates of the corners.
+Vec3 reference_corner(ElementKind kind, std::size_t a) {
+  static constexpr Vec3 hex[8] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
+                                  {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
+  static constexpr Vec3 tet[4] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  static constexpr Vec3 wedge[6] = {{0, 0, -1}, {1, 0, -1}, {0, 1, -1}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}};
+  static constexpr Vec3 pyramid[5] = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {0, 0, 1}};
+  switch (kind) {
+    case ElementKind::tet4:
+    case ElementKind::tet10:
+    case ElementKind::tri3:
+      return tet[a];
+    case ElementKind::wedge6:
+      return wedge[a];
+    case ElementKind::pyramid5:
+      return pyramid[a];
+    case ElementKind::quad4:
+      return {hex[a][0], hex[a][1], 0};
+    default:
+      return hex[a];
+  }
+}
+
+std::size_t corner_count(ElementKind kind) {
+  if (kind == ElementKind::hex20) return 8;
+  if (kind == ElementKind::tet10) return 4;
+  return static_cast<std::size_t>(topology(kind).nodes);
+}
+
+bool second_order(ElementKind kind) {
+  return kind == ElementKind::hex20 || kind == ElementKind::tet10;
+}
+
+}  // namespace
+
 Vec3 clamped(ElementKind kind, Vec3 xi) {
   const auto triangle = [](double& a, double& b, double room) {
     a = std::max(a, 0.0), b = std::max(b, 0.0);
     if (const double sum = a + b; sum > room) a *= room / sum, b *= room / sum;
   };
   switch (kind) {
-    case ElementKind::tet4: {
+    case ElementKind::tet4:
+    case ElementKind::tet10:
       for (double& c : xi) c = std::max(c, 0.0);
       if (const double sum = xi[0] + xi[1] + xi[2]; sum > 1)
         for (double& c : xi) c /= sum;
       break;
-    }
+    case ElementKind::tri3:
+      triangle(xi[0], xi[1], 1.0);
+      break;
     case ElementKind::wedge6:
       triangle(xi[0], xi[1], 1.0);
       xi[2] = std::clamp(xi[2], -1.0, 1.0);
@@ -46,84 +83,43 @@ Vec3 clamped(ElementKind kind, Vec3 xi) {
   return xi;
 }
 
-}  // namespace
+double depth(ElementKind kind, const Vec3& xi) {
+  const auto [x, y, z] = xi;
+  switch (kind) {
+    case ElementKind::tet4:
+      return std::min({x, y, z, 1 - x - y - z});
+    case ElementKind::wedge6:
+      return std::min({x, y, 1 - x - y, 1 - std::abs(z)});
+    case ElementKind::pyramid5:
+      return std::min({z, 1 - z - std::abs(x), 1 - z - std::abs(y)});
+    case ElementKind::hex8:
+      return 1 - std::max({std::abs(x), std::abs(y), std::abs(z)});
+    default:
+      return -1;
+  }
+}
 
 bool ends_search(double overshoot, const PlaceRules& rules) {
   return overshoot <= std::min(on_surface, 2 * rules.tolerance);
 }
 
-Placement in_element(const ElementPacket& element) {
+Placement in_element(const ElementSet& elements, LocalIndex e, const Vec3& point, const Vec3& xi) {
   Placement place;
-  place.element = element.id;
-  place.item = element.item;
-  place.owner = element.owner;
-  place.kind = element.kind;
+  place.element = elements.id(e);
+  place.item = elements.items[static_cast<std::size_t>(e)];
+  place.at_owner = elements.at_owner(e);
+  place.here = e;
+  place.owner = elements.owner(e);
+  place.kind = elements.kind(e);
+  place.xi = clamped(place.kind, xi);
+  const LocalIndex* const nodes = elements.nodes_of(e);
+  for (std::size_t a = 0; a < corner_count(place.kind); ++a)
+    if (elements.x[static_cast<std::size_t>(nodes[a])] == point) {
+      place.xi = reference_corner(place.kind, a);
+      break;
+    }
   return place;
 }
-
-namespace {
-
-std::span<double> weights_of(Placement& place) {
-  return std::span(place.weights).first(static_cast<std::size_t>(topology(place.kind).nodes));
-}
-
-}  // namespace
-
-void set_weights_at(Placement& place, const ElementPacket& element, const Vec3& point, const Vec3& xi) {
-  const std::span<double> weights = weights_of(place);
-  const auto corners = element.corner_span();
-  const auto corner = std::find(corners.begin(), corners.end(), point);
-  if (corner != corners.end()) {
-    weights[static_cast<std::size_t>(corner - corners.begin())] = 1;
-    return;
-  }
-  shape_values(element.kind, clamped(element.kind, xi), weights);
-  for (double& w : weights) w = std::max(w, 0.0);
-  make_partition_of_unity(weights);
-}
-
-namespace {
-
-/// Gradients dN_a/dx at xi, 1/m. False where the Jacobian is singular.
-bool spatial_gradients(const ElementPacket& element, const Vec3& xi, std::span<Vec3> gradients) {
-  shape_gradients(element.kind, xi, gradients);
-  Vec3 x_xi{}, x_eta{}, x_zeta{};
-  const auto corners = element.corner_span();
-  for (std::size_t a = 0; a < corners.size(); ++a) {
-    x_xi = x_xi + gradients[a][0] * corners[a];
-    x_eta = x_eta + gradients[a][1] * corners[a];
-    x_zeta = x_zeta + gradients[a][2] * corners[a];
-  }
-  const Vec3 dxi = cross(x_eta, x_zeta), deta = cross(x_zeta, x_xi), dzeta = cross(x_xi, x_eta);
-  const double determinant = dot(x_xi, dxi);
-  if (!(determinant > 1e-9 * norm(x_xi) * norm(x_eta) * norm(x_zeta))) return false;
-  for (Vec3& g : gradients.first(corners.size())) g = 1 / determinant * (g[0] * dxi + (g[1] * deta + g[2] * dzeta));
-  return true;
-}
-
-/// Linear-exact weights of a point outside. The shape functions themselves, where their inverse map is well-behaved,
-/// else N_a(nearest) + grad N_a . (x - nearest): sum N_a x_a = x in both. (The gradient may be taken anywhere in the
-/// element: at its centre if it is singular at the nearest point.)
-void set_extrapolated_weights(Placement& place, const ElementPacket& element, const Vec3& point, const Vec3& nearest) {
-  constexpr double trusted_overshoot = 1;  // half an element's width; product terms of xi grow beyond
-  const std::span<double> weights = weights_of(place);
-  const InverseMap inverse = inverse_map(element.kind, element.corner_span(), point);
-  if (inverse.converged &&
-      (element.kind == ElementKind::tet4 || overshoot(element.kind, inverse.xi) <= trusted_overshoot)) {
-    shape_values(element.kind, inverse.xi, weights);
-  } else {
-    std::array<Vec3, max_nodes> gradients{};
-    if (!spatial_gradients(element, nearest, gradients) &&
-        !spatial_gradients(element, element_centre(element.kind), gradients))
-      return set_weights_at(place, element, point, nearest);
-    shape_values(element.kind, nearest, weights);
-    const Vec3 away = point - map_to_space(element.kind, element.corner_span(), nearest);
-    for (std::size_t a = 0; a < weights.size(); ++a) weights[a] += dot(gradients[a], away);
-  }
-  make_partition_of_unity(weights);
-}
-
-}  // namespace
 
 void make_partition_of_unity(std::span<double> weights) {
   std::size_t largest = 0;
@@ -138,51 +134,103 @@ void make_partition_of_unity(std::span<double> weights) {
   }
 }
 
-Placement place_inside(std::span<const ElementPacket> elements, std::span<LocalIndex> candidates, const Vec3& point,
-                       const PlaceRules& rules) {
-  const auto at = [&](LocalIndex i) -> const ElementPacket& { return elements[static_cast<std::size_t>(i)]; };
-  std::sort(candidates.begin(), candidates.end(), [&](LocalIndex a, LocalIndex b) { return at(a).id < at(b).id; });
-  double least = std::numeric_limits<double>::infinity();
-  const ElementPacket* best = nullptr;
-  Vec3 best_xi{};
-  for (const LocalIndex c : candidates) {
-    const ElementPacket& element = at(c);
-    const InverseMap inverse = inverse_map(element.kind, element.corner_span(), point);
-    if (!inverse.converged) continue;
-    const double outside = overshoot(element.kind, inverse.xi);
-    // Overshoot counts half widths of the element.
-    if (outside > 2 * rules.tolerance || !(outside < least)) continue;
-    least = outside, best = &element, best_xi = inverse.xi;
-    if (ends_search(outside, rules)) break;
+void shape_weights(const Placement& place, std::span<double> weights) {
+  if (place.state == PlaceState::linear) {
+    const Vec3 centre = element_centre(place.kind);
+    std::array<Vec3, max_nodes> gradients;
+    shape_values(place.kind, centre, weights);
+    shape_gradients(place.kind, centre, gradients);
+    for (std::size_t a = 0; a < weights.size(); ++a) weights[a] += dot(gradients[a], place.xi - centre);
+  } else {
+    shape_values(place.kind, place.xi, weights);
+    if (place.state != PlaceState::extended && !second_order(place.kind))
+      for (double& w : weights) w = std::max(w, 0.0);
   }
-  if (!best) return {};
-  Placement place = in_element(*best);
-  set_weights_at(place, *best, point, best_xi);
-  return place;
+  make_partition_of_unity(weights);
 }
 
-Placement place_nearest(std::span<const ElementPacket> elements, const BoxTree& tree, const Vec3& point, double reach,
+namespace {
+
+/// Where the point is in the linear map about the element's centre. False where that is singular.
+bool linear_coordinates(ElementKind kind, std::span<const Vec3> corners, const Vec3& point, Vec3& xi) {
+  const Vec3 centre = element_centre(kind);
+  std::array<Vec3, max_nodes> gradients;
+  shape_gradients(kind, centre, gradients);
+  Vec3 x_xi{}, x_eta{}, x_zeta{};
+  for (std::size_t a = 0; a < corners.size(); ++a) {
+    x_xi = x_xi + gradients[a][0] * corners[a];
+    x_eta = x_eta + gradients[a][1] * corners[a];
+    x_zeta = x_zeta + gradients[a][2] * corners[a];
+  }
+  const Vec3 dxi = cross(x_eta, x_zeta), deta = cross(x_zeta, x_xi), dzeta = cross(x_xi, x_eta);
+  const double determinant = dot(x_xi, dxi);
+  if (!(determinant > 1e-9 * norm(x_xi) * norm(x_eta) * norm(x_zeta))) return false;
+  const Vec3 away = 1 / determinant * (point - map_to_space(kind, corners, centre));
+  xi = centre + Vec3{dot(dxi, away), dot(deta, away), dot(dzeta, away)};
+  return true;
+}
+
+/// Linear-exact coordinates of a point outside: those of the shape functions themselves, where their inverse map is
+/// well-behaved, else those of the linear map about the centre.
+void extend(Placement& place, std::span<const Vec3> corners, const Vec3& point) {
+  constexpr double trusted_overshoot = 1;  // half an element's width; product terms of xi grow beyond
+  const InverseMap inverse = inverse_map(place.kind, corners, point);
+  const bool affine = place.kind == ElementKind::tet4;
+  if (inverse.converged && (affine || overshoot(place.kind, inverse.xi) <= trusted_overshoot)) {
+    place.xi = inverse.xi;
+    place.state = PlaceState::extended;
+  } else if (linear_coordinates(place.kind, corners, point, place.xi)) {
+    place.state = PlaceState::linear;
+  }
+}
+
+}  // namespace
+
+Placement place_inside(const ElementSet& elements, std::span<LocalIndex> candidates, const Vec3& point,
+                       const PlaceRules& rules) {
+  std::sort(candidates.begin(), candidates.end(),
+            [&](LocalIndex a, LocalIndex b) { return elements.id(a) < elements.id(b); });
+  double least = std::numeric_limits<double>::infinity();
+  LocalIndex best = no_index;
+  Vec3 best_xi{};
+  for (const LocalIndex e : candidates) {
+    const ElementKind kind = elements.kind(e);
+    if (topology(kind).dimension != 3) continue;
+    const InverseMap inverse = inverse_map(kind, CornerList(elements, e).span(), point);
+    if (!inverse.converged) continue;
+    const double outside = overshoot(kind, inverse.xi);
+    // Overshoot counts half widths of the element.
+    if (outside > 2 * rules.tolerance || !(outside < least)) continue;
+    least = outside, best = e, best_xi = inverse.xi;
+    if (ends_search(outside, rules)) break;
+  }
+  if (best == no_index) return {};
+  return in_element(elements, best, point, best_xi);
+}
+
+Placement place_nearest(const ElementSet& elements, const BoxTree& tree, const Vec3& point, double reach,
                         const PlaceRules& rules) {
-  const ElementPacket* best = nullptr;
+  LocalIndex best = no_index;
   NearestPoint best_point;
+  int tried = 0;
   // Boxes are larger than their elements by more than round-off, so the tree never leaves out one that could still be
   // as near as the best: the answer does not depend on the order of the visits.
-  tree.nearest(point, reach, [&](LocalIndex i) {
-    const ElementPacket& element = elements[static_cast<std::size_t>(i)];
-    const NearestPoint nearest = nearest_point(element.kind, element.corner_span(), point);
-    const bool wins = !best || nearest.distance < best_point.distance ||
-                      (nearest.distance == best_point.distance && element.id < best->id);
-    if (wins && nearest.distance <= reach) best = &element, best_point = nearest;
+  tree.nearest(point, reach, [&](LocalIndex e) {
+    ++tried;
+    const NearestPoint nearest = nearest_point(elements.kind(e), CornerList(elements, e).span(), point);
+    const bool wins = best == no_index || nearest.distance < best_point.distance ||
+                      (nearest.distance == best_point.distance && elements.id(e) < elements.id(best));
+    if (wins && nearest.distance <= reach) best = e, best_point = nearest;
     return nearest.distance;
   });
-  if (!best) return {};
-  Placement place = in_element(*best);
-  place.outside = best_point.distance > rules.tolerance * best->size;
-  if (!place.outside || !rules.extrapolate)
-    set_weights_at(place, *best, point, best_point.xi);
-  else
-    set_extrapolated_weights(place, *best, point, best_point.xi);
-  if (place.outside) place.distance = best_point.distance;
+  if (best == no_index) return {};
+  const CornerList corners(elements, best);
+  Placement place = in_element(elements, best, point, best_point.xi);
+  place.work = static_cast<std::uint8_t>(std::min(16 * tried, 255));  // each costs much more than an inverse map
+  if (!(best_point.distance > rules.tolerance * corners.size())) return place;
+  place.state = PlaceState::outside;
+  place.distance = best_point.distance;
+  if (rules.extrapolate && topology(place.kind).dimension == 3) extend(place, corners.span(), point);
   return place;
 }
 

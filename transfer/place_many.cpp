@@ -14,121 +14,109 @@ namespace tenon::transfer {
 
 namespace {
 
-constexpr std::size_t block_points = 16;  ///< that share a search
-constexpr std::size_t most_candidates = 128;
+constexpr std::size_t block_points = 16;    ///< that share a search
+constexpr std::size_t most_leaves = 96;     ///< of the tree that a block may meet
+constexpr std::size_t most_candidates = 24; ///< elements that a point may be in the boxes of
 constexpr double infinite = std::numeric_limits<double>::infinity();
+/// A point that is farther inside than this needs no comparison with a neighbour, in local coordinates.
+constexpr double well_inside = 1e-9;
 
-/// The candidates of a block of points in order of id, and which of them each point is in the box of.
-class Block {
- public:
-  /// False if there are too many candidates.
-  bool find(std::span<const ElementPacket> elements, std::span<const Box> boxes, const BoxTree& tree,
-            const std::array<const Vec3*, block_points>& points, std::size_t count) {
-    Box around;
-    for (std::size_t i = 0; i < count; ++i) around.add(*points[i]);
-    found_.clear();
-    tree.overlapping(around, found_);
-    if (found_.size() > most_candidates) return false;
-    const auto id = [&](LocalIndex i) { return elements[static_cast<std::size_t>(i)].id; };
-    std::sort(found_.begin(), found_.end(), [&](LocalIndex a, LocalIndex b) { return id(a) < id(b); });
-    const std::size_t rows = (found_.size() + pack_width - 1) / pack_width;
-    for (std::size_t k = 0; k < rows * pack_width; ++k)
-      for (std::size_t c = 0; c < 3; ++c) {
-        const bool there = k < found_.size();
-        low_[c][k] = there ? boxes[static_cast<std::size_t>(found_[k])].low[c] : infinite;
-        high_[c][k] = there ? boxes[static_cast<std::size_t>(found_[k])].high[c] : -infinite;
-      }
-    for (std::size_t i = 0; i < count; ++i) mask_[i] = hits(*points[i], rows);
-    return true;
-  }
-  /// Takes the next candidate of a point, or no_index.
-  LocalIndex next(std::size_t point) {
-    for (std::uint64_t& word : mask_[point]) {
-      if (word == 0) continue;
-      const int bit = std::countr_zero(word);
-      word &= word - 1;
-      const auto half = static_cast<std::size_t>(&word - mask_[point].data());
-      return found_[half * 64 + static_cast<std::size_t>(bit)];
-    }
-    return no_index;
-  }
-
- private:
-  using Mask = std::array<std::uint64_t, most_candidates / 64>;
-  Mask hits(const Vec3& point, std::size_t rows) const {
-    Mask mask{};
-    const Pack x = broadcast<Pack>(point[0]), y = broadcast<Pack>(point[1]), z = broadcast<Pack>(point[2]);
-    for (std::size_t r = 0; r < rows; ++r) {
-      const std::size_t k = r * pack_width;
-      const PackMask in = (load(low_[0].data() + k) <= x) & (load(high_[0].data() + k) >= x) &
-                          (load(low_[1].data() + k) <= y) & (load(high_[1].data() + k) >= y) &
-                          (load(low_[2].data() + k) <= z) & (load(high_[2].data() + k) >= z);
-      mask[k / 64] |= static_cast<std::uint64_t>(bits(in)) << (k % 64);
-    }
-    return mask;
-  }
-
-  std::vector<LocalIndex> found_;
-  std::array<std::array<double, most_candidates>, 3> low_, high_;
-  std::array<Mask, block_points> mask_;
+/// The elements that may hold a point, ascending by id, and how far it has come with them.
+struct Candidates {
+  std::array<LocalIndex, most_candidates> element;
+  std::size_t count = 0, next = 0;
+  LocalIndex take() { return next < count ? element[next++] : no_index; }
 };
 
-/// The best element for each point of a block so far, in the manner of place_inside.
-struct Best {
-  double overshoot;
-  LocalIndex element;
-  Vec3 xi;
-};
+void write_inside(const ElementSet& elements, LocalIndex at, const Vec3& xi, std::size_t work, Placement& place) {
+  const auto e = static_cast<std::size_t>(at);
+  place.element = elements.ids[e], place.distance = 0, place.xi = xi, place.item = elements.items[e];
+  place.at_owner = elements.at_owner(at), place.here = at, place.owner = elements.owner(at);
+  place.kind = elements.kind(at), place.state = PlaceState::inside, place.work = static_cast<std::uint8_t>(work);
+}
 
 class Placer {
  public:
-  Placer(std::span<const ElementPacket> elements, std::span<const Box> boxes, const BoxTree& tree, double reach,
-         const PlaceRules& rules)
-      : elements_(elements), boxes_(boxes), tree_(tree), reach_(reach), rules_(rules) {}
+  using Points = std::array<const Vec3*, block_points>;
+  using Places = std::array<Placement*, block_points>;
 
-  void place(const std::array<const Vec3*, block_points>& points, const std::array<Placement*, block_points>& places,
-             std::size_t count) {
-    // Too many candidates: fewer points share the search. How a point is placed must not depend on its company, so only
-    // one that is alone with too many goes another way.
-    if (!block_.find(elements_, boxes_, tree_, points, count)) {
-      if (count == 1) return place_one(*points[0], *places[0]);
-      std::array<const Vec3*, block_points> half_points;
-      std::array<Placement*, block_points> half_places;
-      for (const auto& [first, last] : {std::pair(std::size_t{0}, count / 2), std::pair(count / 2, count)}) {
-        std::copy(points.begin() + first, points.begin() + last, half_points.begin());
-        std::copy(places.begin() + first, places.begin() + last, half_places.begin());
-        place(half_points, half_places, last - first);
-      }
-      return;
-    }
+  Placer(const ElementSet& elements, const BoxTree& tree, double reach, const PlaceRules& rules)
+      : elements_(elements), tree_(tree), reach_(reach), rules_(rules), all_hexahedra_(elements.hexahedra()) {}
+
+  void place(const Points& points, const Places& places, std::size_t count) {
+    if (!find_leaves(points, count)) return place_halves(points, places, count);
     points_ = &points, places_ = &places;
     waiting_ = 0;
-    for (std::size_t i = 0; i < count; ++i) best_[i] = {infinite, no_index, {}}, advance(i);
+    for (std::size_t i = 0; i < count; ++i) {
+      best_[i] = {infinite, no_index, {}};
+      done_[i] = !find_candidates(i);
+      if (done_[i])
+        place_one(*points[i], *places[i]);
+      else
+        advance(i);
+    }
     // Tasks wait until there are four of them; the last ones are made up of copies.
     while (waiting_ > 0) run(std::min<std::size_t>(waiting_, 4));
-    for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t i = 0; i < count; ++i) {
+      if (done_[i]) continue;
       if (best_[i].element == no_index)
         *places[i] = place_nearest(elements_, tree_, *points[i], reach_, rules_);
-      else if (best_[i].overshoot >= 0)
-        finish(i);
+      else
+        *places[i] = in_element(elements_, best_[i].element, *points[i], best_[i].xi);
+    }
   }
 
  private:
-  const ElementPacket& element(LocalIndex i) const { return elements_[static_cast<std::size_t>(i)]; }
+  bool find_leaves(const Points& points, std::size_t count) {
+    Box around;
+    for (std::size_t i = 0; i < count; ++i) around.add(*points[i]);
+    leaves_.clear();
+    tree_.leaves_overlapping(around, leaves_);
+    return leaves_.size() <= most_leaves || count == 1;
+  }
+
+  // Too many candidates: fewer points share the search. How a point is placed does not depend on its company.
+  void place_halves(const Points& points, const Places& places, std::size_t count) {
+    Points half_points;
+    Places half_places;
+    for (const auto& [first, last] : {std::pair(std::size_t{0}, count / 2), std::pair(count / 2, count)}) {
+      std::copy(points.begin() + first, points.begin() + last, half_points.begin());
+      std::copy(places.begin() + first, places.begin() + last, half_places.begin());
+      place(half_points, half_places, last - first);
+    }
+  }
+
+  /// False if there are too many.
+  bool find_candidates(std::size_t i) {
+    const BoxTree::LeafPoint point = tree_.leaf_point(*(*points_)[i]);
+    Candidates& found = candidates_[i];
+    found.count = found.next = 0;
+    for (const LocalIndex leaf : leaves_)
+      for (unsigned hits = tree_.hits(leaf, point); hits != 0; hits &= hits - 1) {
+        if (found.count == most_candidates) return false;
+        const LocalIndex e = tree_.in_leaf(leaf, std::countr_zero(hits));
+        std::size_t k = found.count++;
+        for (const GlobalId id = elements_.id(e); k > 0 && elements_.id(found.element[k - 1]) > id; --k)
+          found.element[k] = found.element[k - 1];
+        found.element[k] = e;
+      }
+    return true;
+  }
 
   void place_one(const Vec3& point, Placement& place) {
-    candidates_.clear();
-    tree_.containing(point, candidates_);
-    place = place_inside(elements_, candidates_, point, rules_);
-    if (place.element == no_id) place = place_nearest(elements_, tree_, point, reach_, rules_);
+    many_.clear();
+    tree_.containing(point, many_);
+    place = place_inside(elements_, many_, point, rules_);
+    if (!place.found()) place = place_nearest(elements_, tree_, point, reach_, rules_);
+    place.work = 255;
   }
 
   /// Queues the next hexahedron that may hold the point; others are tried on the way.
   void advance(std::size_t i) {
     while (true) {
-      const LocalIndex candidate = block_.next(i);
+      const LocalIndex candidate = candidates_[i].take();
       if (candidate == no_index) return;
-      if (element(candidate).kind == ElementKind::hex8) {
+      if (all_hexahedra_ || elements_.kind(candidate) == ElementKind::hex8) {
         queue_[waiting_++] = {i, candidate};
         return;
       }
@@ -138,9 +126,10 @@ class Placer {
 
   /// By the scalar inverse map. True if the search for the point is over.
   bool try_alone(std::size_t i, LocalIndex candidate) {
-    const ElementPacket& e = element(candidate);
-    const InverseMap inverse = inverse_map(e.kind, e.corner_span(), *(*points_)[i]);
-    return inverse.converged && take(i, candidate, overshoot(e.kind, inverse.xi), inverse.xi);
+    const ElementKind kind = elements_.kind(candidate);
+    if (topology(kind).dimension != 3) return false;
+    const InverseMap inverse = inverse_map(kind, CornerList(elements_, candidate).span(), *(*points_)[i]);
+    return inverse.converged && take(i, candidate, overshoot(kind, inverse.xi), inverse.xi);
   }
 
   bool take(std::size_t i, LocalIndex candidate, double outside, const Vec3& xi) {
@@ -154,14 +143,14 @@ class Placer {
     std::array<Queued, 4> queued;
     for (std::size_t l = 0; l < 4; ++l) {
       queued[l] = queue_[waiting_ - 1 - std::min(l, count - 1)];
-      tasks[l] = {element(queued[l].element).corners.data(), (*points_)[queued[l].point]};
+      tasks[l] = {elements_.nodes_of(queued[l].element), (*points_)[queued[l].point]};
     }
     waiting_ -= count;
-    const HexCorners corners = hex_corners(tasks);
-    const HexLocal at = hex_newton(hex_polynomial(corners));
+    const HexCorners corners = hex_corners(elements_.x.data(), tasks);
+    HexLocal at = hex_newton(hex_polynomial(corners));
     const Pack outside = hex_overshoot(at);
-    bool any_over = false;
     std::array<bool, 4> over{};
+    bool any_over = false;
     for (std::size_t l = 0; l < count; ++l) {
       const std::size_t i = queued[l].point;
       if (!at.converged[l]) {
@@ -173,40 +162,40 @@ class Placer {
       if (!over[l]) advance(i);
     }
     if (!any_over) return;
-    Pack w[8];
-    hex_weights(corners, at, w);
-    for (std::size_t l = 0; l < count; ++l) {
-      if (!over[l]) continue;
-      const std::size_t i = queued[l].point;
-      Placement& place = *(*places_)[i];
-      place = in_element(element(best_[i].element));
-      for (std::size_t a = 0; a < 8; ++a) place.weights[a] = w[a][l];
-      best_[i].overshoot = -1;  // written
-    }
-  }
-
-  void finish(std::size_t i) {
-    Placement& place = *(*places_)[i];
-    place = in_element(element(best_[i].element));
-    set_weights_at(place, element(best_[i].element), *(*points_)[i], best_[i].xi);
+    put_within(corners, at);
+    for (std::size_t l = 0; l < count; ++l)
+      if (over[l]) write(queued[l], {at.xi[l], at.eta[l], at.zeta[l]});
   }
 
   struct Queued {
     std::size_t point;
     LocalIndex element;
   };
-  std::span<const ElementPacket> elements_;
-  std::span<const Box> boxes_;
+
+  void write(const Queued& task, const Vec3& xi) {
+    write_inside(elements_, task.element, xi, candidates_[task.point].next, *(*places_)[task.point]);
+    done_[task.point] = true;
+  }
+
+  /// The best element for a point so far, in the manner of place_inside.
+  struct Best {
+    double overshoot;
+    LocalIndex element;
+    Vec3 xi;
+  };
+  const ElementSet& elements_;
   const BoxTree& tree_;
   double reach_;
   PlaceRules rules_;
-  Block block_;
-  const std::array<const Vec3*, block_points>* points_ = nullptr;
-  const std::array<Placement*, block_points>* places_ = nullptr;
+  bool all_hexahedra_;
+  std::vector<LocalIndex> leaves_, many_;
+  const Points* points_ = nullptr;
+  const Places* places_ = nullptr;
+  std::array<Candidates, block_points> candidates_;
   std::array<Best, block_points> best_;
+  std::array<bool, block_points> done_;
   std::array<Queued, block_points + 4> queue_;
   std::size_t waiting_ = 0;
-  std::vector<LocalIndex> candidates_;
 };
 
 /// The diagonal that blocks of points may have if points that follow each other are near each other, as the nodes of
@@ -232,43 +221,97 @@ double ordered_diagonal(std::span<const Vec3> points, std::span<const Box> boxes
 
 /// In blocks that end early where the next point would make them larger than `most`.
 template <typename At>
-void place_in_order(Placer& placer, std::span<const Vec3> points, std::span<Placement> places, double most, At at) {
-  std::array<const Vec3*, block_points> block;
-  std::array<Placement*, block_points> into;
-  std::size_t count = 0;
+void place_in_order(Placer& placer, std::span<const Vec3> points, std::span<Placement> places, std::size_t count,
+                    double most, At at) {
+  Placer::Points block;
+  Placer::Places into;
+  std::size_t in_block = 0;
   Box around;
-  for (std::size_t k = 0; k < points.size(); ++k) {
+  for (std::size_t k = 0; k < count; ++k) {
     const std::size_t i = at(k);
     Box larger = around;
     larger.add(points[i]);
-    if (count == block_points || (count > 0 && larger.diagonal() > most)) {
-      placer.place(block, into, count);
-      count = 0, larger = Box{points[i], points[i]};
+    if (in_block == block_points || (in_block > 0 && larger.diagonal() > most)) {
+      placer.place(block, into, in_block);
+      in_block = 0, larger = Box{points[i], points[i]};
     }
     around = larger;
-    block[count] = &points[i], into[count] = &places[i];
-    ++count;
+    block[in_block] = &points[i], into[in_block] = &places[i];
+    ++in_block;
   }
-  if (count > 0) placer.place(block, into, count);
+  if (in_block > 0) placer.place(block, into, in_block);
 }
 
 }  // namespace
 
-void place_many(std::span<const ElementPacket> elements, std::span<const Box> boxes, const BoxTree& tree,
-                std::span<const Vec3> points, double reach, const PlaceRules& rules, std::span<Placement> places) {
-  Placer placer(elements, boxes, tree, reach, rules);
-  if (const double most = ordered_diagonal(points, boxes); most > 0) {
-    place_in_order(placer, points, places, most, [](std::size_t i) { return i; });
+void place_many(const ElementSet& elements, const BoxTree& tree, std::span<const Vec3> points, double reach,
+                const PlaceRules& rules, std::span<Placement> places) {
+  Placer placer(elements, tree, reach, rules);
+  if (const double most = ordered_diagonal(points, elements.boxes); most > 0) {
+    place_in_order(placer, points, places, points.size(), most, [](std::size_t k) { return k; });
     return;
   }
   Box around;
   for (const Vec3& p : points) around.add(p);
-  const HilbertCurve curve(around);
-  std::vector<HilbertPlace> order(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) order[i] = {curve.code(points[i]), static_cast<LocalIndex>(i)};
+  std::vector<HilbertPlace> order =
+      HilbertCurve(around).places(points.size(), [&](std::size_t i) { return points[i]; });
   sort_along_curve(order);
-  place_in_order(placer, points, places, infinite,
-                 [&](std::size_t i) { return static_cast<std::size_t>(order[i].index); });
+  place_in_order(placer, points, places, points.size(), infinite,
+                 [&](std::size_t k) { return static_cast<std::size_t>(order[k].index); });
+}
+
+bool place_again(const ElementSet& elements, std::span<const Vec3> points, std::span<LocalIndex> held,
+                 std::span<Placement> places) {
+  bool all = true;
+  std::array<HexTask, 4> tasks;
+  std::array<std::size_t, 4> of;
+  std::size_t waiting = 0;
+  const auto settle = [&](std::size_t i, bool converged, const Vec3& xi) {
+    if (converged && depth(elements.kind(held[i]), xi) > well_inside)
+      write_inside(elements, held[i], xi, 1, places[i]);
+    else
+      held[i] = no_index, all = false;
+  };
+  const auto run = [&] {
+    for (std::size_t l = waiting; l < 4; ++l) tasks[l] = tasks[0];
+    const HexLocal at = hex_newton(hex_polynomial(hex_corners(elements.x.data(), tasks)));
+    for (std::size_t l = 0; l < waiting; ++l) settle(of[l], at.converged[l] != 0, {at.xi[l], at.eta[l], at.zeta[l]});
+    waiting = 0;
+  };
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const LocalIndex e = held[i];
+    if (e == no_index) {
+      all = false;
+    } else if (elements.kind(e) == ElementKind::hex8) {
+      tasks[waiting] = {elements.nodes_of(e), &points[i]}, of[waiting] = i;
+      if (++waiting == 4) run();
+    } else {
+      const InverseMap inverse = inverse_map(elements.kind(e), CornerList(elements, e).span(), points[i]);
+      settle(i, inverse.converged, inverse.xi);
+    }
+  }
+  if (waiting > 0) run();
+  return !all;
+}
+
+void place_rest(const ElementSet& elements, const BoxTree& tree, std::span<const Vec3> points,
+                std::span<const LocalIndex> held, double reach, const PlaceRules& rules, std::span<Placement> places) {
+  Placer placer(elements, tree, reach, rules);
+  std::vector<std::size_t> rest;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (held[i] == no_index) rest.push_back(i);
+  const double most = ordered_diagonal(points, elements.boxes);
+  if (most > 0) {
+    place_in_order(placer, points, places, rest.size(), most, [&](std::size_t k) { return rest[k]; });
+    return;
+  }
+  Box around;
+  for (const std::size_t i : rest) around.add(points[i]);
+  std::vector<HilbertPlace> order =
+      HilbertCurve(around).places(rest.size(), [&](std::size_t k) { return points[rest[k]]; });
+  sort_along_curve(order);
+  place_in_order(placer, points, places, rest.size(), infinite,
+                 [&](std::size_t k) { return rest[static_cast<std::size_t>(order[k].index)]; });
 }
 
 }  // namespace tenon::transfer

@@ -102,9 +102,18 @@ RowMap::RowMap(const Communicator& comm, const Rows& rows, const std::string& na
   take_gather(comm, wanted, name);
 }
 
-RowMap::RowMap(const Communicator& comm, PointRows&& rows, double empty_value, const std::string& name)
-    : slot_(std::move(rows.slot_)), weight_(std::move(rows.weight_)), width_(rows.width_), empty_value_(empty_value) {
-  take_gather(comm, rows.table_, name);
+RowMap::RowMap(const Communicator& comm, PointRows&& rows, double empty_value, const SlotTable& wanted,
+               const std::string& name)
+    : width_(rows.width()), points_(std::move(rows)), empty_value_(empty_value) {
+  take_gather(comm, wanted, name);
+}
+
+RowMap::RowMap(PointRows&& rows, double empty_value, std::size_t slots)
+    : slots_(slots), direct_(true), width_(rows.width()), points_(std::move(rows)), empty_value_(empty_value) {}
+
+void RowMap::gather(std::span<const ExchangeItem> values) const {
+  if (!direct_) return gather_.forward(values);
+  for (const ExchangeItem& item : values) std::memcpy(item.to, item.from, item.bytes * slots_);
 }
 
 template <int components>
@@ -124,8 +133,8 @@ void RowMap::multiply_fixed(const double* gathered, double* target) const {
 // Two sums side by side, for the latency of the additions.
 template <int components, int width>
 void RowMap::interpolate_fixed(const double* gathered, double* target) const {
-  const LocalIndex* slot = slot_.data();
-  const double* weight = weight_.data();
+  const LocalIndex* slot = points_.slot_.data();
+  const double* weight = points_.weight_.data();
   const std::size_t count = rows();
   for (std::size_t i = 0; i < count; ++i, target += components, slot += width, weight += width - 1) {
     if (slot[0] == no_index) {
@@ -149,23 +158,23 @@ void RowMap::interpolate_fixed(const double* gathered, double* target) const {
 void RowMap::multiply_any(const double* gathered, double* target, std::size_t components) const {
   for (std::size_t i = 0; i < rows(); ++i)
     for (std::size_t c = 0; c < components; ++c) {
-      const auto value = [&](std::size_t k) { return gathered[static_cast<std::size_t>(slot_[k]) * components + c]; };
+      const auto value = [&](LocalIndex slot) { return gathered[static_cast<std::size_t>(slot) * components + c]; };
       double& to = target[i * components + c];
       if (width_ == 0) {
         to = 0;
         for (auto k = static_cast<std::size_t>(begin_[i]); k < static_cast<std::size_t>(begin_[i + 1]); ++k)
-          to += weight_[k] * value(k);
+          to += weight_[k] * value(slot_[k]);
         continue;
       }
-      const std::size_t first = i * width_;
-      if (slot_[first] == no_index) {
+      const LocalIndex* const slots = points_.slot_.data() + i * width_;
+      const double* const weights = points_.weight_.data() + i * (width_ - 1);
+      if (slots[0] == no_index) {
         to = empty_value_;
         continue;
       }
-      const double base = value(first);
+      const double base = value(slots[0]);
       std::array<double, 2> sum{};
-      for (std::size_t k = 1; k < width_; ++k)
-        sum[(k + 1) % 2] += weight_[i * (width_ - 1) + k - 1] * (value(first + k) - base);
+      for (std::size_t k = 1; k < width_; ++k) sum[(k + 1) % 2] += weights[k - 1] * (value(slots[k]) - base);
       to = base + (sum[0] + sum[1]);
     }
 }
@@ -201,7 +210,9 @@ void RowMap::multiply(std::span<const double> gathered, std::span<double> target
 
 std::int64_t RowMap::memory() const {
   return static_cast<std::int64_t>(begin_.capacity() * sizeof(std::int64_t) + slot_.capacity() * sizeof(LocalIndex) +
-                                   weight_.capacity() * sizeof(double));
+                                   weight_.capacity() * sizeof(double) +
+                                   points_.slot_.capacity() * sizeof(LocalIndex) +
+                                   points_.weight_.capacity() * sizeof(double));
 }
 
 }  // namespace tenon::transfer

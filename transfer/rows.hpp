@@ -29,11 +29,23 @@ struct Sought {
 
 /// Places of the owned items: nodes, or centres of elements.
 std::vector<Vec3> item_points(const Side& side);
+/// The same of all local items, ghosts too.
+std::vector<Vec3> local_points(const Side& side);
 
-/// Collective. The map that gives every local target item, ghosts too, the shape functions of the source element that
-/// holds it. With `drop_outside`, items outside have no terms and receive `empty_value`. `sought` has the owned items.
-RowMap interpolation_map(const Side& source, const Side& target, const PlaceRules& rules, bool drop_outside,
-                         double empty_value, const std::string& name, Sought& sought);
+/// The values that interpolation takes: of which elements, and where on them.
+struct InterpolationSource {
+  const ElementSet& elements;
+  const Items& nodes;
+  Location location = Location::node;
+  std::size_t width = 1;        ///< most values that a point takes, the same on every rank
+  std::size_t local_items = 0;  ///< of `location` on this rank
+};
+
+/// Collective. The map that gives each of some points (all local target items, ghosts too, which know by themselves
+/// where they are) the shape functions of the source element that holds it, or that element's value. With
+/// `drop_outside`, points outside have no terms and receive `empty_value`. `room`: rows to be written over.
+RowMap interpolation_map(const Communicator& comm, const InterpolationSource& source, std::span<const Placement> places,
+                         bool drop_outside, double empty_value, PointRows&& room, const std::string& name);
 
 /// Collective. Terms of each owned target item from all source items that have points near it. Sums over the columns
 /// are 1 (totals); with `density`, weights are multiplied by the source item's volume and divided by the target's.

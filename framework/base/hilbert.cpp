@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <numeric>
 
 namespace tenon {
@@ -12,29 +13,39 @@ namespace {
 
 // Spreads 16 bits, two zeros between each.
 std::uint64_t spread(std::uint64_t x) {
+#ifdef __BMI2__
+  return __builtin_ia32_pdep_di(x, 0x249249249249);
+#else
   x = (x | x << 16) & 0x0000ff0000ff;
   x = (x | x << 8) & 0x00f00f00f00f;
   x = (x | x << 4) & 0x0c30c30c30c3;
   return (x | x << 2) & 0x249249249249;
+#endif
 }
 
-// Place of a cell on the Hilbert curve through 2^48 cells, interleaved (Skilling's transposition [Ski04]).
-std::uint64_t hilbert_code(std::array<std::uint32_t, 3> x) {
-  constexpr std::uint32_t top = 1u << 15;
-  for (std::uint32_t bit = top; bit > 1; bit >>= 1) {
+/// Place of a cell on the Hilbert curve through 2^48 cells, before interleaving (Skilling's transposition [Ski04]).
+/// Cell: a number, or a machine vector of them.
+template <typename Cell>
+void transpose_hilbert(Cell (&x)[3]) {
+  for (std::uint32_t bit = 1u << 15; bit > 1; bit >>= 1) {
     const std::uint32_t below = bit - 1;
-    for (std::size_t c = 0; c < 3; ++c) {
-      const std::uint32_t swapped = (x[0] ^ x[c]) & below;
-      const std::uint32_t invert = x[c] & bit ? below : 0, exchange = x[c] & bit ? 0 : swapped;
+    for (auto& coordinate : x) {
+      const Cell swapped = (x[0] ^ coordinate) & below;
+      const Cell set = Cell{} - ((coordinate & bit) / bit);  // all ones where the bit is set
+      const Cell invert = set & below, exchange = ~set & swapped;
       x[0] ^= invert | exchange;
-      x[c] ^= exchange;
+      coordinate ^= exchange;
     }
   }
   x[1] ^= x[0];
   x[2] ^= x[1];
-  std::uint32_t flip = 0;
-  for (std::uint32_t bit = top; bit > 1; bit >>= 1) flip ^= x[2] & bit ? bit - 1 : 0;
-  return spread(x[0] ^ flip) << 2 | spread(x[1] ^ flip) << 1 | spread(x[2] ^ flip);
+  Cell flip{};
+  for (std::uint32_t bit = 1u << 15; bit > 1; bit >>= 1) flip ^= (Cell{} - ((x[2] & bit) / bit)) & (bit - 1);
+  for (auto& coordinate : x) coordinate ^= flip;
+}
+
+std::uint64_t interleaved(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+  return spread(x) << 2 | spread(y) << 1 | spread(z);
 }
 
 }  // namespace
@@ -48,22 +59,33 @@ HilbertCurve::HilbertCurve(const Box& bounds) {
 }
 
 std::uint64_t HilbertCurve::code(const Vec3& x) const {
-  std::array<std::uint32_t, 3> cell{};
-  if (std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]))
-    for (std::size_t c = 0; c < 3; ++c)
-      cell[c] = static_cast<std::uint32_t>(std::clamp((x[c] - low_[c]) * scale_, 0.0, 65535.0));
-  return hilbert_code(cell);
+  std::uint32_t cells[3] = {0, 0, 0};
+  if (is_finite(x))
+    for (std::size_t c = 0; c < 3; ++c) cells[c] = cell(x, c);
+  transpose_hilbert(cells);
+  return interleaved(cells[0], cells[1], cells[2]);
 }
 
-// A radix sort of 48-bit codes, byte by byte; bytes in which all agree are skipped.
+void HilbertCurve::codes_of(const EightCells& cells, std::array<std::uint64_t, 8>& codes) {
+  using Eight = std::uint32_t __attribute__((vector_size(32)));
+  Eight x[3];
+  for (std::size_t c = 0; c < 3; ++c) std::memcpy(&x[c], cells[c].data(), sizeof x[c]);
+  transpose_hilbert(x);
+  for (std::size_t k = 0; k < 8; ++k) codes[k] = interleaved(x[0][k], x[1][k], x[2][k]);
+}
+
+// A radix sort of 48-bit codes, byte by byte, all bytes counted at once; bytes in which all agree are skipped.
 void sort_along_curve(std::vector<HilbertPlace>& places) {
+  constexpr std::size_t bytes = 6;
+  std::array<std::array<std::size_t, 256>, bytes> begin{};
+  for (const HilbertPlace& p : places)
+    for (std::size_t b = 0; b < bytes; ++b) ++begin[b][p.code >> (8 * b) & 0xff];
   std::vector<HilbertPlace> other(places.size());
-  for (int shift = 0; shift < 48; shift += 8) {
-    std::array<std::size_t, 256> begin{};
-    for (const HilbertPlace& p : places) ++begin[p.code >> shift & 0xff];
-    if (std::find(begin.begin(), begin.end(), places.size()) != begin.end()) continue;
-    std::exclusive_scan(begin.begin(), begin.end(), begin.begin(), std::size_t{0});
-    for (const HilbertPlace& p : places) other[begin[p.code >> shift & 0xff]++] = p;
+  for (std::size_t b = 0; b < bytes; ++b) {
+    auto& next = begin[b];
+    if (std::find(next.begin(), next.end(), places.size()) != next.end()) continue;
+    std::exclusive_scan(next.begin(), next.end(), next.begin(), std::size_t{0});
+    for (const HilbertPlace& p : places) other[next[p.code >> (8 * b) & 0xff]++] = p;
     places.swap(other);
   }
 }

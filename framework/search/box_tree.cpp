@@ -62,56 +62,61 @@ Box bounds_of_centres(std::span<const Box> boxes) {
 void BoxTree::build(std::span<const Box> boxes) {
   const Box bounds = bounds_of_centres(boxes);
   origin_ = bounds.empty() ? Vec3{} : centre(bounds);
-  const HilbertCurve curve(bounds);
-  std::vector<HilbertPlace> codes(boxes.size());
-  for (std::size_t i = 0; i < boxes.size(); ++i) codes[i] = {curve.code(centre(boxes[i])), static_cast<LocalIndex>(i)};
+  boxes_.assign(boxes.begin(), boxes.end());
+  std::vector<HilbertPlace> codes =
+      HilbertCurve(bounds).places(boxes.size(), [&](std::size_t i) { return centre(boxes[i]); });
   sort_along_curve(codes);
   order_.resize(boxes.size());
-  boxes_.resize(boxes.size());
-  for (std::size_t i = 0; i < codes.size(); ++i) {
-    order_[i] = codes[i].index;
-    boxes_[i] = boxes[static_cast<std::size_t>(codes[i].index)];
-  }
-  groups_.clear();
+  for (std::size_t i = 0; i < codes.size(); ++i) order_[i] = codes[i].index;
   levels_ = 0;
-  if (boxes.empty()) return;
-
   std::size_t total = 0;
-  for (std::size_t count = boxes.size(); levels_ == 0 || count > 1; ++levels_) {
+  for (std::size_t count = boxes.size(); count > 0 && (levels_ == 0 || count > 1); ++levels_) {
     count = (count + fan_out - 1) / fan_out;
     level_begin_[static_cast<std::size_t>(levels_)] = total;
     total += count;
   }
-  Group empty;
-  for (std::size_t c = 0; c < 3; ++c) {
-    empty.low[c] = Eight{} + float_infinity;
-    empty.high[c] = Eight{} - float_infinity;
-  }
-  groups_.assign(total, empty);
-  const auto put = [&](Group& group, std::size_t child, const FloatBox& box) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      group.low[c][child] = box.low[c];
-      group.high[c][child] = box.high[c];
+  groups_.resize(total);
+  fill_groups();
+}
+
+void BoxTree::refit(std::span<const Box> boxes) {
+  boxes_.assign(boxes.begin(), boxes.end());
+  fill_groups();
+}
+
+void BoxTree::fill_groups() {
+  if (levels_ == 0) return;
+  const std::size_t leaves = levels_ > 1 ? level_begin_[1] : 1;
+  for (std::size_t g = 0; g < leaves; ++g) {
+    Group& group = groups_[g];
+    const std::size_t first = g * fan_out, count = std::min<std::size_t>(fan_out, order_.size() - first);
+    for (std::size_t k = 0; k < fan_out; ++k) {
+      const Box* const box = k < count ? &boxes_[static_cast<std::size_t>(order_[first + k])] : nullptr;
+      const bool there = box && is_number(*box);
+      const FloatBox rounded = there ? rounded_outward(*box) : FloatBox{};
+      for (std::size_t c = 0; c < 3; ++c) {
+        group.low[c][k] = there ? rounded.low[c] : float_infinity;
+        group.high[c][k] = there ? rounded.high[c] : -float_infinity;
+      }
     }
-  };
-  for (std::size_t i = 0; i < boxes_.size(); ++i)
-    if (is_number(boxes_[i])) put(groups_[i / fan_out], i % fan_out, rounded_outward(boxes_[i]));
+  }
   for (int level = 1; level < levels_; ++level) {
     const std::size_t below = level_begin_[static_cast<std::size_t>(level - 1)];
     const std::size_t here = level_begin_[static_cast<std::size_t>(level)];
-    for (std::size_t child = 0; child < here - below; ++child) {
-      const Group& group = groups_[below + child];
-      FloatBox box;
-      for (std::size_t c = 0; c < 3; ++c) {
-        box.low[c] = group.low[c][0];
-        box.high[c] = group.high[c][0];
-        for (std::size_t k = 1; k < fan_out; ++k) {
-          box.low[c] = std::min(box.low[c], group.low[c][k]);
-          box.high[c] = std::max(box.high[c], group.high[c][k]);
+    const std::size_t end = level + 1 < levels_ ? level_begin_[static_cast<std::size_t>(level + 1)] : groups_.size();
+    for (std::size_t g = here; g < end; ++g)
+      for (std::size_t k = 0; k < fan_out; ++k) {
+        const std::size_t child = (g - here) * fan_out + k;
+        for (std::size_t c = 0; c < 3; ++c) {
+          float low = float_infinity, high = -float_infinity;
+          if (child < here - below)
+            for (std::size_t i = 0; i < fan_out; ++i) {
+              low = std::min(low, groups_[below + child].low[c][i]);
+              high = std::max(high, groups_[below + child].high[c][i]);
+            }
+          groups_[g].low[c][k] = low, groups_[g].high[c][k] = high;
         }
       }
-      put(groups_[here + child / fan_out], child % fan_out, box);
-    }
   }
 }
 
@@ -133,9 +138,11 @@ void BoxTree::overlaps(const Group& group, const FloatBox& box, std::uint64_t& h
   hits = std::bit_cast<std::uint64_t>(__builtin_convertvector(together, EightBytes));
 }
 
-template <typename Hit>
+// Visits the children of groups of the lowest level that is asked for.
+template <int lowest, typename Hit>
 void BoxTree::visit_overlapping(const Box& box, Hit&& hit) const {
   if (levels_ == 0) return;
+  if (levels_ <= lowest) return hit(std::size_t{0});
   const FloatBox query = rounded_outward(box);
   // One entry per level: the group under visit and which of its children are still to come.
   std::array<LocalIndex, max_levels> visited;
@@ -152,7 +159,7 @@ void BoxTree::visit_overlapping(const Box& box, Hit&& hit) const {
     const int bit = std::countr_zero(left[l]);
     left[l] &= ~(std::uint64_t{0xff} << bit);
     const LocalIndex child = fan_out * visited[l] + bit / 8;
-    if (level == 0) {
+    if (level == lowest) {
       hit(static_cast<std::size_t>(child));
       continue;
     }
@@ -163,15 +170,19 @@ void BoxTree::visit_overlapping(const Box& box, Hit&& hit) const {
 }
 
 void BoxTree::containing(const Vec3& point, std::vector<LocalIndex>& found) const {
-  visit_overlapping(Box{point, point}, [&](std::size_t sorted) {
-    if (boxes_[sorted].contains(point)) found.push_back(order_[sorted]);
+  visit_overlapping<0>(Box{point, point}, [&](std::size_t sorted) {
+    if (boxes_[static_cast<std::size_t>(order_[sorted])].contains(point)) found.push_back(order_[sorted]);
   });
 }
 
 void BoxTree::overlapping(const Box& box, std::vector<LocalIndex>& found) const {
-  visit_overlapping(box, [&](std::size_t sorted) {
-    if (boxes_[sorted].overlaps(box)) found.push_back(order_[sorted]);
+  visit_overlapping<0>(box, [&](std::size_t sorted) {
+    if (boxes_[static_cast<std::size_t>(order_[sorted])].overlaps(box)) found.push_back(order_[sorted]);
   });
+}
+
+void BoxTree::leaves_overlapping(const Box& box, std::vector<LocalIndex>& leaves) const {
+  visit_overlapping<1>(box, [&](std::size_t leaf) { leaves.push_back(static_cast<LocalIndex>(leaf)); });
 }
 
 }  // namespace tenon

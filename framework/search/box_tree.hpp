@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -28,11 +29,33 @@ class BoxTree {
   /// Rebuilds for new boxes.
   void build(std::span<const Box> boxes);
   LocalIndex size() const { return static_cast<LocalIndex>(order_.size()); }
+  std::int64_t memory() const {
+    return static_cast<std::int64_t>(order_.capacity() * sizeof(LocalIndex) + boxes_.capacity() * sizeof(Box) +
+                                     groups_.capacity() * sizeof(Group));
+  }
 
   /// Indices of all boxes that contain the point, appended in no particular order.
   void containing(const Vec3& point, std::vector<LocalIndex>& found) const;
+  /// The same boxes elsewhere: the order in the tree stays, its bounds follow. Right for any motion, and as fast to
+  /// search as long as neighbours stay neighbours.
+  void refit(std::span<const Box> boxes);
+
   /// Indices of all boxes that overlap the box, appended in no particular order.
   void overlapping(const Box& box, std::vector<LocalIndex>& found) const;
+
+  /// Leaves (each of up to eight boxes) that overlap the box, appended in no particular order: what points of that box
+  /// may be in, found once for all of them.
+  void leaves_overlapping(const Box& box, std::vector<LocalIndex>& leaves) const;
+  /// A point as leaves compare it.
+  struct LeafPoint {
+    std::array<float, 3> low, high;
+  };
+  LeafPoint leaf_point(const Vec3& point) const;
+  /// Bit k is set if the point is in box k of the leaf, or beside it by the rounding of floats.
+  unsigned hits(LocalIndex leaf, const LeafPoint& point) const;
+  LocalIndex in_leaf(LocalIndex leaf, int k) const {
+    return order_[static_cast<std::size_t>(fan_out) * static_cast<std::size_t>(leaf) + static_cast<std::size_t>(k)];
+  }
 
   /// Visits boxes, the nearer branch first: calls `distance(index)`, which returns the true distance from the point
   /// to what is in that box, only where the box is nearer than, or exactly as near as, the best so far; so every
@@ -67,11 +90,12 @@ class BoxTree {
   FloatBox rounded_outward(const Box& box) const;
   static void overlaps(const Group& group, const FloatBox& box, std::uint64_t& hits);
   static void squared_distances(const Group& group, const FloatBox& point, Eight& squared);
-  template <typename Hit>
+  template <int lowest, typename Hit>
   void visit_overlapping(const Box& box, Hit&& hit) const;
+  void fill_groups();
 
   std::vector<LocalIndex> order_;  // sorted position -> caller's index
-  std::vector<Box> boxes_;         // sorted
+  std::vector<Box> boxes_;         // in the caller's order
   /// Level by level. Group g of level 0 holds the sorted boxes 8g .. 8g+7; child c of a group of level n > 0 is the
   /// group c of level n-1. The top level has one group.
   std::vector<Group> groups_;
@@ -79,6 +103,30 @@ class BoxTree {
   int levels_ = 0;
   Vec3 origin_{};  // floats hold what is relative to it, so that they resolve bodies far from zero
 };
+
+inline BoxTree::LeafPoint BoxTree::leaf_point(const Vec3& point) const {
+  // A little more than the rounding, either way.
+  constexpr float unit = 1.5f * std::numeric_limits<float>::epsilon(), least = std::numeric_limits<float>::denorm_min();
+  LeafPoint result;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const float f = static_cast<float>(point[c] - origin_[c]), round = std::abs(f) * unit + least;
+    result.low[c] = f - round, result.high[c] = f + round;
+  }
+  return result;
+}
+
+inline unsigned BoxTree::hits(LocalIndex leaf, const LeafPoint& point) const {
+  const Group& g = groups_[static_cast<std::size_t>(leaf)];
+  const auto in = (g.low[0] <= point.high[0]) & (g.high[0] >= point.low[0]) & (g.low[1] <= point.high[1]) &
+                  (g.high[1] >= point.low[1]) & (g.low[2] <= point.high[2]) & (g.high[2] >= point.low[2]);
+#ifdef __AVX__
+  return static_cast<unsigned>(__builtin_ia32_movmskps256(std::bit_cast<Eight>(in)));
+#else
+  unsigned mask = 0;
+  for (int k = 0; k < fan_out; ++k) mask |= in[k] ? 1u << k : 0u;
+  return mask;
+#endif
+}
 
 inline void BoxTree::squared_distances(const Group& group, const FloatBox& point, Eight& squared) {
   squared = Eight{};
@@ -111,9 +159,9 @@ double BoxTree::nearest(const Vec3& point, double limit, Distance&& distance) co
     const Candidate here = stack[--waiting];
     if (!(here.distance <= reach)) continue;
     if (here.level < 0) {
-      const auto sorted = static_cast<std::size_t>(here.child);
-      if (!(boxes_[sorted].distance(point) <= reach)) continue;
-      const double d = distance(order_[sorted]);
+      const LocalIndex index = order_[static_cast<std::size_t>(here.child)];
+      if (!(boxes_[static_cast<std::size_t>(index)].distance(point) <= reach)) continue;
+      const double d = distance(index);
       if (d < best) {
         best = d;
         if (best < limit) shorten(best);

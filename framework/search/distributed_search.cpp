@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "framework/search/distributed_search.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace tenon {
@@ -33,18 +34,25 @@ double extent(const Communicator& comm, std::span<const Box> boxes, std::span<co
 DistributedSearch::DistributedSearch(const Communicator& comm, std::span<const Box> boxes, std::span<const Vec3> points,
                                      double reach, std::string name) {
   Rcb rcb(comm);
-  search(comm, rcb, boxes, points, reach, name);
+  search(comm, rcb, boxes, points, reach, name, {});
 }
 
 DistributedSearch::DistributedSearch(const Communicator& comm, Rcb& rcb, std::span<const Box> boxes,
-                                     std::span<const Vec3> points, double reach, std::string name) {
-  search(comm, rcb, boxes, points, reach, name);
+                                     std::span<const Vec3> points, double reach, std::string name,
+                                     std::span<const float> work) {
+  search(comm, rcb, boxes, points, reach, name, work);
+}
+
+void DistributedSearch::move_points(std::span<const Vec3> points) {
+  point_plan_.forward(points, std::span(arrived_points_));
 }
 
 void DistributedSearch::search(const Communicator& comm, Rcb& rcb, std::span<const Box> boxes,
-                               std::span<const Vec3> points, double reach, const std::string& name) {
+                               std::span<const Vec3> points, double reach, const std::string& name,
+                               std::span<const float> work) {
   std::vector<Vec3> items(points.begin(), points.end());
   std::vector<double> weights(points.size(), 1.0);
+  if (!work.empty()) std::copy(work.begin(), work.end(), weights.begin());
   for (const Box& box : boxes)
     if (is_finite(box)) {
       items.push_back(0.5 * (box.low + box.high));

@@ -22,9 +22,13 @@ class DistributedSearch {
   /// finite go nowhere; a point that is not finite goes to rank 0.
   DistributedSearch(const Communicator& comm, std::span<const Box> boxes, std::span<const Vec3> points, double reach,
                     std::string name);
-  /// The same with cuts kept by the caller, so that a search after small motion moves few items.
+  /// The same with cuts kept by the caller, so that a search after small motion moves few items. `work` (empty: equal)
+  /// is how costly each point was in the last search: the parts get equal shares.
   DistributedSearch(const Communicator& comm, Rcb& rcb, std::span<const Box> boxes, std::span<const Vec3> points,
-                    double reach, std::string name);
+                    double reach, std::string name, std::span<const float> work = {});
+
+  /// Collective. New places of the points, which stay on the ranks that they were sent to.
+  void move_points(std::span<const Vec3> points);
 
   /// Moves data of boxes to the rendezvous; a box that overlaps several parts is cloned. Item i of this plan is
   /// box `box_of_send()[i]` of the caller.
@@ -35,12 +39,13 @@ class DistributedSearch {
 
   /// Tree over the boxes that have arrived here, indexed in order of arrival.
   const BoxTree& tree() const { return tree_; }
+  BoxTree take_tree() { return std::move(tree_); }
   std::span<const Vec3> arrived_points() const { return arrived_points_; }
   std::span<const Box> arrived_boxes() const { return arrived_boxes_; }
 
  private:
   void search(const Communicator& comm, Rcb& rcb, std::span<const Box> boxes, std::span<const Vec3> points,
-              double reach, const std::string& name);
+              double reach, const std::string& name, std::span<const float> work);
 
   ExchangePlan box_plan_, point_plan_;
   std::vector<LocalIndex> box_of_send_;

@@ -17,33 +17,12 @@ namespace {
 
 using testing::communicator;
 
-/// All elements of a whole mesh, as packets.
-std::vector<ElementPacket> all_elements(const MeshData& mesh) {
-  std::vector<ElementPacket> all;
-  for (const BlockData& block : mesh.blocks) {
-    const auto nodes = static_cast<std::size_t>(topology(block.kind).nodes);
-    for (std::size_t e = 0; e < block.size(); ++e) {
-      ElementPacket packet;
-      Box box;
-      for (std::size_t a = 0; a < nodes; ++a) {
-        packet.corners[a] = mesh.coordinates[static_cast<std::size_t>(block.connectivity[e * nodes + a])];
-        box.add(packet.corners[a]);
-      }
-      packet.kind = block.kind;
-      packet.size = box.diagonal();
-      packet.id = static_cast<GlobalId>(all.size());
-      all.push_back(packet);
-    }
-  }
-  return all;
-}
-
 /// Brute force: every element is a candidate, and the nearest is sought among all.
-Placement oracle(const std::vector<ElementPacket>& all, const Vec3& point, const PlaceRules& rules) {
+Placement oracle(const ElementSet& all, const Vec3& point, const PlaceRules& rules) {
   std::vector<LocalIndex> candidates(all.size());
   std::iota(candidates.begin(), candidates.end(), 0);
   const Placement inside = place_inside(all, candidates, point, rules);
-  if (inside.element != no_id) return inside;
+  if (inside.found()) return inside;
   // One tree of boxes without end, so that nothing is left out.
   const Box everywhere{{-1e9, -1e9, -1e9}, {1e9, 1e9, 1e9}};
   const std::vector<Box> boxes(all.size(), everywhere);
@@ -53,40 +32,41 @@ Placement oracle(const std::vector<ElementPacket>& all, const Vec3& point, const
 /// Four at a time or one by one, Newton ends within its round-off.
 void expect_near(const Placement& a, const Placement& b, const Vec3& at) {
   EXPECT_EQ(a.element, b.element) << at[0] << " " << at[1] << " " << at[2];
-  EXPECT_EQ(a.outside, b.outside);
-  for (std::size_t i = 0; i < max_nodes; ++i) EXPECT_NEAR(a.weights[i], b.weights[i], 1e-13);
+  EXPECT_EQ(a.is_outside(), b.is_outside());
+  const auto wa = testing::weights_of(a), wb = testing::weights_of(b);
+  for (std::size_t i = 0; i < max_nodes; ++i) EXPECT_NEAR(wa[i], wb[i], 1e-13);
 }
 
 /// By one rank that has all elements.
-std::vector<Placement> alone(const std::vector<ElementPacket>& all, const std::vector<Vec3>& points,
-                             const PlaceRules& rules) {
-  std::vector<Box> boxes(all.size());
-  for (std::size_t e = 0; e < all.size(); ++e) {
-    for (const Vec3& corner : all[e].corner_span()) boxes[e].add(corner);
-    boxes[e].inflate(1e-8 * all[e].size);
-  }
+std::vector<Placement> alone(const ElementSet& all, const std::vector<Vec3>& points, const PlaceRules& rules) {
   std::vector<Placement> places(points.size());
-  place_many(all, boxes, BoxTree(boxes), points, 1e9, rules, places);
+  place_many(all, BoxTree(all.boxes), points, 1e9, rules, places);
   return places;
 }
 
 void expect_same(const Placement& a, const Placement& b, const Vec3& at) {
   EXPECT_EQ(a.element, b.element) << at[0] << " " << at[1] << " " << at[2];
-  EXPECT_EQ(a.outside, b.outside);
+  EXPECT_EQ(a.state, b.state);
   EXPECT_EQ(std::bit_cast<std::uint64_t>(a.distance), std::bit_cast<std::uint64_t>(b.distance));
-  for (std::size_t i = 0; i < max_nodes; ++i)
-    EXPECT_EQ(std::bit_cast<std::uint64_t>(a.weights[i]), std::bit_cast<std::uint64_t>(b.weights[i]));
+  for (std::size_t c = 0; c < 3; ++c)
+    EXPECT_EQ(std::bit_cast<std::uint64_t>(a.xi[c]), std::bit_cast<std::uint64_t>(b.xi[c]));
+}
+
+/// Deals points out, so that they are nowhere near their elements; the last rank gets none.
+std::vector<Vec3> dealt(const std::vector<Vec3>& points) {
+  std::vector<Vec3> mine;
+  const int ranks = std::max(1, communicator().size() - 1);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (static_cast<int>(i) % ranks == communicator().rank()) mine.push_back(points[i]);
+  return mine;
 }
 
 void compare(MeshData data, const std::vector<Vec3>& points, const PlaceRules& rules) {
-  const std::vector<ElementPacket> all = all_elements(data);
+  const ElementSet all = testing::element_set(data);
   const auto mesh = testing::distributed(std::move(data));
-  std::vector<Vec3> mine;  // dealt out, so that points are nowhere near their elements; the last rank gets none
-  const int dealt = std::max(1, communicator().size() - 1);
-  for (std::size_t i = 0; i < points.size(); ++i)
-    if (static_cast<int>(i) % dealt == communicator().rank()) mine.push_back(points[i]);
-  const Containers containers = containers_of(*mesh, mesh->coordinates, rules.tolerance, "test");
-  const std::vector<Placement> placed = locate(communicator(), containers, mine, rules, "test");
+  const std::vector<Vec3> mine = dealt(points);
+  const Containers containers = containers_of(*mesh, mesh->coordinates, {}, rules.tolerance, "test");
+  const std::vector<Placement> placed = Locator(communicator(), rules, false, "test").find(containers, mine);
   ASSERT_EQ(placed.size(), mine.size());
   const std::vector<Placement> serial = alone(all, mine, rules);
   for (std::size_t i = 0; i < mine.size(); ++i) {
@@ -149,8 +129,8 @@ TEST(Locate, SphereAwayFromTheOrigin) {
 
 TEST(Locate, NoPointsAtAll) {
   const auto mesh = testing::distributed(testing::box(2));
-  const Containers containers = containers_of(*mesh, mesh->coordinates, 1e-9, "test");
-  EXPECT_TRUE(locate(communicator(), containers, {}, {}, "test").empty());
+  const Containers containers = containers_of(*mesh, mesh->coordinates, {}, 1e-9, "test");
+  EXPECT_TRUE(Locator(communicator(), {}, false, "test").find(containers, {}).empty());
 }
 
 TEST(Containers, FlatElementsAreSkippedAndCounted) {
@@ -158,9 +138,9 @@ TEST(Containers, FlatElementsAreSkippedAndCounted) {
   const auto mesh = testing::distributed(std::move(data));
   std::vector<Vec3> x = mesh->coordinates;
   for (Vec3& p : x) p[2] = p[2] == 1.0 ? 0.5 : p[2];  // the upper layer has no height left
-  const Containers containers = containers_of(*mesh, x, 1e-9, "test");
+  const Containers containers = containers_of(*mesh, x, {}, 1e-9, "test");
   EXPECT_EQ(containers.skipped, 4);
-  EXPECT_EQ(communicator().sum(static_cast<std::int64_t>(containers.elements.size())), 4);
+  EXPECT_EQ(containers.count, 4);
 }
 
 TEST(Containers, WedgeCollapsedHexIsSoundAndHoldsPoints) {
@@ -180,7 +160,7 @@ TEST(Containers, InvertedElementsAreRefusedByName) {
     if (p[1] == 1) p[0] = 1 - p[0];
   for (const std::vector<Vec3>& coordinates : {x, bow_tie}) {
     try {
-      containers_of(*mesh, coordinates, 1e-9, "heat");
+      containers_of(*mesh, coordinates, {}, 1e-9, "heat");
       FAIL() << "accepted";
     } catch (const Error& error) {
       EXPECT_EQ(error.code(), ExitCode::geometry);
@@ -190,9 +170,38 @@ TEST(Containers, InvertedElementsAreRefusedByName) {
   }
 }
 
-TEST(Containers, SurfacesAreRefused) {
-  const auto mesh = testing::distributed(generate(PlateShape{.elements_x = 2, .elements_y = 2}));
-  EXPECT_THROW(containers_of(*mesh, mesh->coordinates, 1e-9, "test"), Error);
+TEST(Containers, ChoiceOfBlocksAndSidesIsChecked) {
+  const auto mesh = testing::distributed(testing::mixed_box(3));
+  const Containers all = containers_of(*mesh, mesh->coordinates, {}, 1e-9, "test");
+  const std::string first = mesh->blocks.front().name;
+  const Containers some = containers_of(*mesh, mesh->coordinates, {{first}, ""}, 1e-9, "test");
+  EXPECT_EQ(some.count, mesh->blocks.front().global_count);
+  EXPECT_LT(some.count, all.count);
+  EXPECT_THROW(containers_of(*mesh, mesh->coordinates, {{"no such block"}, ""}, 1e-9, "test"), Error);
+  EXPECT_THROW(containers_of(*mesh, mesh->coordinates, {{}, "no such side set"}, 1e-9, "test"), Error);
+}
+
+TEST(Locate, AgainAfterMotionIsAsIfSoughtAnew) {
+  for (const bool tetrahedra : {false, true})
+    for (const double step : {1e-4, 0.02, 0.3}) {  // of the size of the body; elements have a fifth
+      const auto mesh = testing::distributed(testing::box(5, {.tetrahedra = tetrahedra, .distortion = 0.15}));
+      std::vector<Vec3> points = dealt(random_points(300, -0.1, 1.1, 7));
+      Containers containers = containers_of(*mesh, mesh->coordinates, {}, 1e-9, "test");
+      Locator locator(communicator(), {}, true, "test");
+      locator.find(containers, points);
+      std::vector<Vec3> x = mesh->coordinates;
+      double moved = 0;
+      for (int k = 0; k < 3; ++k) {
+        for (Vec3& p : x) p = p + step * Vec3{std::sin(2 * p[1]), 0.5 * std::cos(3 * p[0]), 0.3 * p[0]};
+        for (Vec3& p : points) p = p + step * Vec3{-0.2, 0.4 * p[2], 0.1};
+        moved += 1.2 * step;
+        move_containers(containers, *mesh, x, "test");
+        const std::vector<Placement> again = locator.find_again(containers, points, moved);
+        if (locator.decomposed()) moved = 0;
+        const std::vector<Placement> anew = Locator(communicator(), {}, false, "test").find(containers, points);
+        for (std::size_t i = 0; i < points.size(); ++i) expect_same(again[i], anew[i], points[i]);
+      }
+    }
 }
 
 }  // namespace

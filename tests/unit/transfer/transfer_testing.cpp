@@ -84,6 +84,38 @@ void shift(MeshData& mesh, const Vec3& by) {
   for (Vec3& x : mesh.coordinates) x = x + by;
 }
 
+ElementSet element_set(const MeshData& mesh) {
+  ElementSet set;
+  set.x = mesh.coordinates;
+  set.x.push_back({});
+  for (const BlockData& block : mesh.blocks)
+    set.stride = std::max(set.stride, static_cast<std::size_t>(topology(block.kind).nodes));
+  for (const BlockData& block : mesh.blocks) {
+    const auto nodes = static_cast<std::size_t>(topology(block.kind).nodes);
+    for (std::size_t e = 0; e < block.size(); ++e) {
+      Box box;
+      for (std::size_t a = 0; a < set.stride; ++a) {
+        const GlobalId n = block.connectivity[e * nodes + (a < nodes ? a : 0)];
+        set.nodes.push_back(static_cast<LocalIndex>(n));
+        box.add(mesh.coordinates[static_cast<std::size_t>(n)]);
+      }
+      box.inflate(1e-8 * box.diagonal());
+      set.boxes.push_back(box);
+      set.items.push_back(static_cast<LocalIndex>(set.ids.size()));
+      set.ids.push_back(static_cast<GlobalId>(set.ids.size()));
+      set.kinds.push_back(block.kind);
+    }
+  }
+  if (mesh.blocks.size() == 1) set.kinds.resize(1);
+  return set;
+}
+
+std::array<double, max_nodes> weights_of(const Placement& place) {
+  std::array<double, max_nodes> weights{};
+  if (place.found()) shape_weights(place, std::span(weights).first(place.nodes()));
+  return weights;
+}
+
 MeshPointer distributed(MeshData mesh, PartitionMethod method) {
   DistributeOptions options;
   options.method = method;

@@ -12,6 +12,7 @@
 #include "framework/mesh/generators.hpp"
 #include "tests/support/test_communicator.hpp"
 #include "transfer/grid_transfer.hpp"
+#include "transfer/place.hpp"
 
 namespace tenon::transfer::testing {
 
@@ -31,6 +32,11 @@ MeshData mixed_box(int n);
 /// Rotation by `degrees` about the axis (1,1,1) through `about`.
 void rotate(MeshData& mesh, double degrees, const Vec3& about);
 void shift(MeshData& mesh, const Vec3& by);
+
+/// All elements of a whole mesh, as one rank that has everything sees them, in boxes a little larger. Ids in order.
+ElementSet element_set(const MeshData& mesh);
+/// The shape functions of a placement, and zeros behind them.
+std::array<double, max_nodes> weights_of(const Placement& place);
 
 MeshPointer distributed(MeshData mesh, PartitionMethod method = PartitionMethod::rcb);
 

@@ -27,10 +27,10 @@ std::vector<Vec3> my_random_points(std::uint64_t count) {
 TEST(Awkward, RandomPointsInWarpedElementsAreAllFound) {
   const auto mesh = distributed(box(12, {.distortion = 0.2}));
   const std::vector<Vec3> points = my_random_points(60000);
-  const Containers containers = containers_of(*mesh, mesh->coordinates, 1e-9, "test");
-  const std::vector<Placement> placed = locate(communicator(), containers, points, {}, "test");
+  const Containers containers = containers_of(*mesh, mesh->coordinates, {}, 1e-9, "test");
+  const std::vector<Placement> placed = Locator(communicator(), {}, false, "test").find(containers, points);
   std::int64_t outside = 0;
-  for (const Placement& p : placed) outside += p.outside;
+  for (const Placement& p : placed) outside += p.is_outside();
   EXPECT_EQ(communicator().sum(outside), 0);
 }
 
