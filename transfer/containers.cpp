@@ -41,8 +41,8 @@ double bulge(ElementKind kind, std::span<const Vec3> x) {
   double greatest = 0;
   const auto edges = [&](const auto& table, std::size_t first) {
     for (std::size_t k = 0; k < std::size(table); ++k) {
-      const Vec3 bend = x[static_cast<std::size_t>(table[k][0])] + x[static_cast<std::size_t>(table[k][1])] -
-                        2.0 * x[first + k];
+      const Vec3 bend =
+          x[static_cast<std::size_t>(table[k][0])] + x[static_cast<std::size_t>(table[k][1])] - 2.0 * x[first + k];
       greatest = std::max(greatest, norm(bend));
     }
   };
@@ -194,7 +194,8 @@ Error inverted_error(const Mesh& mesh, const ElementSet& set, LocalIndex e, cons
 
 /// Whether the block is among those chosen.
 bool chosen(const ElementChoice& choice, const ElementBlock& block) {
-  return choice.blocks.empty() || std::find(choice.blocks.begin(), choice.blocks.end(), block.name) != choice.blocks.end();
+  return choice.blocks.empty() ||
+         std::find(choice.blocks.begin(), choice.blocks.end(), block.name) != choice.blocks.end();
 }
 
 void check_choice(const ElementChoice& choice, const Mesh& mesh, const std::string& transfer) {

@@ -60,17 +60,17 @@ std::optional<Error> coordinate_error(const Grid& grid, const char* which, const
   const std::string& of = grid.mesh ? grid.mesh->source : grid.cloud->source;
   const std::size_t expected = grid.mesh ? static_cast<std::size_t>(grid.mesh->nodes()) : grid.cloud->ids.size();
   if (grid.coordinates.size() != expected)
-    return Error(ExitCode::usage, fmt::format("transfer '{}': {} coordinates for {} local {} of the {} {}", name,
-                                              grid.coordinates.size(), expected, grid.mesh ? "nodes" : "points", which,
-                                              of));
+    return Error(ExitCode::usage,
+                 fmt::format("transfer '{}': {} coordinates for {} local {} of the {} {}", name,
+                             grid.coordinates.size(), expected, grid.mesh ? "nodes" : "points", which, of));
   for (std::size_t n = 0; n < grid.coordinates.size(); ++n) {
     const Vec3& x = grid.coordinates[n];
     if (std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2])) continue;
     return Error(ExitCode::geometry,
                  fmt::format("transfer '{}': {} {} of the {} {} is at ({}, {}, {}), not a place; the run that moved "
                              "it has become unstable, or the file is damaged",
-                             name, grid.mesh ? "node" : "point", grid.mesh ? grid.mesh->node_labels[n] : grid.cloud->ids[n],
-                             which, of, x[0], x[1], x[2]));
+                             name, grid.mesh ? "node" : "point",
+                             grid.mesh ? grid.mesh->node_labels[n] : grid.cloud->ids[n], which, of, x[0], x[1], x[2]));
   }
   return std::nullopt;
 }
@@ -134,12 +134,6 @@ Misses MissCounter::total(const Communicator& comm, GlobalId skipped) const {
 
 namespace {
 
-std::size_t greatest_width(const Partner& source) {
-  int width = 1;
-  for (const ElementBlock& block : source.mesh->blocks) width = std::max(width, topology(block.kind).nodes);
-  return static_cast<std::size_t>(width);
-}
-
 /// Tells coordinates apart that differ in any bit, but for one chance in 2^64.
 std::uint64_t fingerprint(std::span<const Vec3> coordinates) {
   std::uint64_t hash = coordinates.size();
@@ -160,7 +154,8 @@ ElementChoice surface_choice(const Partner& source, const std::string& name) {
   std::vector<std::string> surfaces;
   for (const ElementBlock& block : source.mesh->blocks)
     if (topology(block.kind).dimension == 2 &&
-        (choice.blocks.empty() || std::find(choice.blocks.begin(), choice.blocks.end(), block.name) != choice.blocks.end()))
+        (choice.blocks.empty() ||
+         std::find(choice.blocks.begin(), choice.blocks.end(), block.name) != choice.blocks.end()))
       surfaces.push_back(block.name);
   if (!surfaces.empty()) {
     choice.blocks = surfaces;
@@ -191,7 +186,8 @@ void GridTransfer::Impl::interpolate(bool again) {
   std::vector<Vec3> centres;
   std::span<const Vec3> points = target.coordinates;
   if (target.location == Location::element) centres = local_points(target.side()), points = centres;
-  const std::vector<Placement> places = again ? locator->find_again(containers, points, moved) : locator->find(containers, points);
+  const std::vector<Placement> places =
+      again ? locator->find_again(containers, points, moved) : locator->find(containers, points);
   if (locator->decomposed()) moved = 0;
   const bool drop = options.outside == OutsidePolicy::value;
   MissCounter counter;
@@ -205,8 +201,7 @@ void GridTransfer::Impl::interpolate(bool again) {
       outside.push_back({static_cast<LocalIndex>(i), status_of(places[i], drop), places[i].distance});
   misses = counter.total(comm(), containers.skipped);
   refuse_misses(misses, options, name);
-  const InterpolationSource from{containers.set, source.nodes, source.location,
-                                 projection ? static_cast<std::size_t>(max_side_nodes) : greatest_width(source),
+  const InterpolationSource from{containers.set, source.nodes, source.location, containers.set.stride,
                                  source.items().ids.size()};
   map = interpolation_map(comm(), from, places, drop, options.outside_value, map.take_rows(), name);
   mean_size = containers.mean_size;
@@ -337,7 +332,9 @@ bool GridTransfer::update(std::span<const Vec3> source_coordinates, std::span<co
   };
   impl.source.coordinates = checked(impl.source, source_coordinates, "source");
   impl.target.coordinates = checked(impl.target, target_coordinates, "target");
-  const auto same = [](const Partner& partner) { return fingerprint(partner.coordinates) == partner.built_fingerprint; };
+  const auto same = [](const Partner& partner) {
+    return fingerprint(partner.coordinates) == partner.built_fingerprint;
+  };
   if (!impl.comm().any(!same(impl.source) || !same(impl.target))) return false;
   if (impl.options.moving) {
     double farthest = 0;  // squared

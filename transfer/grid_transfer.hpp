@@ -46,14 +46,14 @@ struct TransferOptions {
   bool moving = false;
 };
 
-/// One side: a mesh or a cloud of points, where it stands now, and where the field lives. `coordinates` are of all local
-/// nodes, or of the points of the cloud; they must stay valid, and unchanged, as long as the map is used or until
+/// One side: a mesh or a cloud of points, where it stands now, and where the field lives. `coordinates` are of all
+/// local nodes, or of the points of the cloud; they must stay valid, and unchanged, as long as the map is used or until
 /// update() gives others.
 struct Grid {
   const Mesh* mesh = nullptr;
   std::span<const Vec3> coordinates;
-  Location location = Location::node;   ///< node or element (a value per element, at its centre); particle of a cloud
-  const PointCloud* cloud = nullptr;    ///< instead of a mesh
+  Location location = Location::node;    ///< node or element (a value per element, at its centre); particle of a cloud
+  const PointCloud* cloud = nullptr;     ///< instead of a mesh
   std::vector<std::string> blocks = {};  ///< of a source: the blocks that points are sought in; empty: all
   std::string sides = {};  ///< of a source of nearest_projection: the side set that points are projected to; empty: the
                            ///< surface elements, or the skin of a mesh of solids

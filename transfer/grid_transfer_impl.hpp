@@ -19,11 +19,11 @@ struct Partner {
   const PointCloud* cloud = nullptr;
   Location location = Location::node;
   ElementChoice choice;
-  Items nodes, elements;                   ///< elements only where the field lives on them; nodes: or points
-  std::span<const Vec3> coordinates;       ///< the caller's, m
-  std::uint64_t built_fingerprint = 0;     ///< of the coordinates that the map was built for
-  std::vector<Vec3> built;                 ///< and themselves, if it is to follow motion
-  mutable std::vector<double> volumes;     ///< of the items, m^3; worked out by the first report
+  Items nodes, elements;                ///< elements only where the field lives on them; nodes: or points
+  std::span<const Vec3> coordinates;    ///< the caller's, m
+  std::uint64_t built_fingerprint = 0;  ///< of the coordinates that the map was built for
+  std::vector<Vec3> built;              ///< and themselves, if it is to follow motion
+  mutable std::vector<double> volumes;  ///< of the items, m^3; worked out by the first report
 
   const Communicator& comm() const { return mesh ? mesh->comm : cloud->comm; }
   const Items& items() const { return location == Location::element ? elements : nodes; }
@@ -61,7 +61,7 @@ struct GridTransfer::Impl {
   Containers containers;
   std::unique_ptr<Locator> locator;
   double mean_size = 0;  ///< of the elements that points are sought in, m
-  double moved = 0;  ///< since the rendezvous was made, on any rank, m
+  double moved = 0;      ///< since the rendezvous was made, on any rank, m
 
   // Scratch and counter of apply; grow to what is needed once.
   mutable std::int64_t applied = 0;

@@ -9,7 +9,7 @@
 namespace tenon::transfer {
 
 IntegralKeeper::IntegralKeeper(const Side& source, const Side& target, std::span<const double> volumes)
-    : comm_(target.mesh.comm), source_owned_(source.items.owned) {
+    : comm_(target.mesh.comm), source_owned_(source.items.owned.begin(), source.items.owned.end()) {
   const std::vector<double> all = item_volumes(source.mesh, source.coordinates, source.location);
   for (const LocalIndex i : source_owned_) source_volumes_.push_back(all[static_cast<std::size_t>(i)]);
   ExactSum sum;

@@ -105,10 +105,11 @@ RowMap interpolation_map(const Communicator& comm, const InterpolationSource& so
   const auto for_each_node = [&](auto&& visit) {
     for (std::size_t e = 0; e < nodes.elements(); ++e) {
       const PlacedNodes::Nodes at = nodes.element(e);
-      for (std::size_t a = 0; a < nodes.count(e); ++a) visit(e, a, at);
+      for (std::size_t a = 0; a < at.count; ++a) visit(e, a, at);
     }
   };
-  for_each_node([&](std::size_t, std::size_t a, const PlacedNodes::Nodes& at) { wanted.mark(at.owner[a], at.at_owner[a]); });
+  for_each_node(
+      [&](std::size_t, std::size_t a, const PlacedNodes::Nodes& at) { wanted.mark(at.owner[a], at.at_owner[a]); });
   wanted.number();
   const std::size_t stride = nodes.stride();
   std::vector<LocalIndex> slots(nodes.elements() * stride, 0);
@@ -117,6 +118,26 @@ RowMap interpolation_map(const Communicator& comm, const InterpolationSource& so
   });
   set_node_rows(rows, places, drop_outside, [&](std::size_t i) { return slots.data() + nodes.element_of(i) * stride; });
   return RowMap(comm, std::move(rows), empty_value, wanted, name);
+}
+
+RowMap interpolation_map(const Side& source, const Side& target, const PlaceRules& rules, bool drop_outside,
+                         double empty_value, const std::string& name, Sought& sought) {
+  const Communicator& comm = target.mesh.comm;
+  const Containers containers = containers_of(source.mesh, source.coordinates, {}, rules.tolerance, name);
+  sought.skipped = containers.skipped;
+  sought.points = local_points(target);
+  sought.places = Locator(comm, rules, false, name + ".locate").find(containers, sought.points);
+  RowMap map = interpolation_map(
+      comm, {containers.set, source.nodes, source.location, containers.set.stride, source.items.ids.size()},
+      sought.places, drop_outside, empty_value, {}, name);
+  const std::span<const LocalIndex> owned = target.items.owned;
+  for (std::size_t k = 0; k < owned.size(); ++k) {
+    const auto i = static_cast<std::size_t>(owned[k]);
+    sought.ids.push_back(target.items.ids[i]);
+    sought.points[k] = sought.points[i], sought.places[k] = sought.places[i];
+  }
+  sought.points.resize(owned.size()), sought.places.resize(owned.size());
+  return map;
 }
 
 }  // namespace tenon::transfer

@@ -120,9 +120,9 @@ void Locator::build(const Containers& containers, std::span<const Vec3> points) 
     tree_.build(containers.set.boxes);
     return;
   }
-  search_ = std::make_unique<DistributedSearch>(comm_, rcb_, containers.set.boxes, points, reach_ + skin_, name_,
-                                                work_.size() == points.size() ? std::span<const float>(work_)
-                                                                              : std::span<const float>{});
+  search_ = std::make_unique<DistributedSearch>(
+      comm_, rcb_, containers.set.boxes, points, reach_ + skin_, name_,
+      work_.size() == points.size() ? std::span<const float>(work_) : std::span<const float>{});
   arrived_ = arrived_elements(*search_, containers.set);
   tree_ = search_->take_tree();
 }
@@ -238,29 +238,22 @@ std::int64_t Locator::memory() const {
          tree_.memory();
 }
 
-PlacedNodes::PlacedNodes(const Communicator& comm, const ElementSet& elements, const Items& nodes,
-                         std::span<const Placement> placements, const std::string& name)
-    : stride_(static_cast<std::size_t>(comm.max(static_cast<std::int64_t>(elements.stride)))) {
-  SlotTable wanted;
-  for (const Placement& place : placements)
-    if (place.found()) wanted.mark(place.owner, place.at_owner);
-  wanted.number();
-  element_of_.assign(placements.size(), no_index);
-  for (std::size_t i = 0; i < placements.size(); ++i)
-    if (placements[i].found()) element_of_[i] = wanted.slot(placements[i].owner, placements[i].at_owner);
+/// `nodes_of(e)`: the local nodes of an element that this rank owns.
+template <typename NodesOf>
+void PlacedNodes::fetch(const Communicator& comm, const Items& nodes, const SlotTable& wanted, const std::string& name,
+                        NodesOf nodes_of) {
   const std::size_t count = wanted.owners().size();
-  id_.resize(count * stride_), owner_.resize(count * stride_), at_owner_.resize(count * stride_), count_.resize(count);
-
   const auto fill = [&](LocalIndex e, std::size_t row, std::vector<GlobalId>& id, std::vector<int>& owner,
                         std::vector<LocalIndex>& at_owner, std::vector<std::int8_t>& number) {
-    const LocalIndex* const corners = elements.nodes_of(e);
-    for (std::size_t a = 0; a < elements.stride; ++a) {
-      const auto n = static_cast<std::size_t>(corners[a]);
+    const std::span<const LocalIndex> of_element = nodes_of(e);
+    for (std::size_t a = 0; a < of_element.size(); ++a) {
+      const auto n = static_cast<std::size_t>(of_element[a]);
       const std::size_t to = row * stride_ + a;
       id[to] = nodes.ids[n], owner[to] = nodes.owners[n], at_owner[to] = nodes.at_owner[n];
     }
-    number[row] = static_cast<std::int8_t>(elements.node_count(e));
+    number[row] = static_cast<std::int8_t>(of_element.size());
   };
+  id_.resize(count * stride_), owner_.resize(count * stride_), at_owner_.resize(count * stride_), count_.resize(count);
   if (comm.size() == 1) {
     for (std::size_t i = 0; i < count; ++i) fill(wanted.indices()[i], i, id_, owner_, at_owner_, count_);
     return;
@@ -274,13 +267,36 @@ PlacedNodes::PlacedNodes(const Communicator& comm, const ElementSet& elements, c
   std::vector<LocalIndex> at_owner(id.size());
   std::vector<std::int8_t> number(asked.size());
   for (std::size_t i = 0; i < asked.size(); ++i) fill(asked[i], i, id, owner, at_owner, number);
-  const auto item = [&](const auto& from, auto& to, std::size_t each) {
+  const auto item = [](const auto& from, auto& to, std::size_t each) {
     return ExchangeItem{reinterpret_cast<const std::byte*>(from.data()), reinterpret_cast<std::byte*>(to.data()),
                         each * sizeof(from[0])};
   };
   const ExchangeItem items[] = {item(id, id_, stride_), item(owner, owner_, stride_),
                                 item(at_owner, at_owner_, stride_), item(number, count_, 1)};
   ask.reverse(items);
+}
+
+PlacedNodes::PlacedNodes(const Communicator& comm, const ElementSet& elements, const Items& nodes,
+                         std::span<const Placement> placements, const std::string& name)
+    : stride_(elements.stride) {
+  SlotTable wanted;
+  for (const Placement& place : placements)
+    if (place.found()) wanted.mark(place.owner, place.at_owner);
+  wanted.number();
+  element_of_.assign(placements.size(), no_index);
+  for (std::size_t i = 0; i < placements.size(); ++i)
+    if (placements[i].found()) element_of_[i] = wanted.slot(placements[i].owner, placements[i].at_owner);
+  fetch(comm, nodes, wanted, name,
+        [&](LocalIndex e) { return std::span(elements.nodes_of(e), elements.node_count(e)); });
+}
+
+PlacedNodes::PlacedNodes(const Mesh& mesh, const Items& nodes, const SlotTable& wanted, const std::string& name) {
+  std::vector<std::span<const LocalIndex>> all;
+  all.reserve(static_cast<std::size_t>(mesh.elements()));
+  for_each_element(mesh, [&](LocalIndex, const ElementBlock& block, LocalIndex e) { all.push_back(block.nodes(e)); });
+  for (const ElementBlock& block : mesh.blocks)
+    stride_ = std::max(stride_, static_cast<std::size_t>(topology(block.kind).nodes));
+  fetch(mesh.comm, nodes, wanted, name, [&](LocalIndex e) { return all[static_cast<std::size_t>(e)]; });
 }
 
 }  // namespace tenon::transfer

@@ -10,6 +10,7 @@
 #include "framework/mesh/mesh.hpp"
 #include "framework/search/distributed_search.hpp"
 #include "transfer/place.hpp"
+#include "transfer/slot_table.hpp"
 
 namespace tenon::transfer {
 
@@ -27,8 +28,8 @@ class Locator {
   std::vector<Placement> find(const Containers& containers, std::span<const Vec3> points);
 
   /// The same points and elements, moved by at most `moved` (m) since find(), on any rank. Rebuilds as little as the
-  /// motion demands. The placements are those of find(), bit for bit, except where elements overlap: there a point stays
-  /// in its element while it is inside.
+  /// motion demands. The placements are those of find(), bit for bit, except where elements overlap: there a point
+  /// stays in its element while it is inside.
   std::vector<Placement> find_again(const Containers& containers, std::span<const Vec3> points, double moved);
 
   /// Local: points that the last call searched for, rather than found in their element.
@@ -42,7 +43,9 @@ class Locator {
   void build(const Containers& containers, std::span<const Vec3> points);
   std::vector<Placement> search(const Containers& containers, std::span<const Vec3> points, bool again);
   void look_farther(const Containers& containers, std::span<const Vec3> points, std::vector<Placement>& places) const;
-  const ElementSet& elements(const Containers& containers) const { return comm_.size() == 1 ? containers.set : arrived_; }
+  const ElementSet& elements(const Containers& containers) const {
+    return comm_.size() == 1 ? containers.set : arrived_;
+  }
   void forget();
 
   Communicator comm_;
@@ -60,7 +63,7 @@ class Locator {
   bool decomposed_ = false;
 };
 
-/// Where the nodes of elements that points were placed in are kept by their owners, fetched from the elements' owners.
+/// Where the nodes of elements are kept by their owners, fetched from the elements' owners.
 class PlacedNodes {
  public:
   /// The nodes of one element.
@@ -68,21 +71,31 @@ class PlacedNodes {
     const GlobalId* id;
     const int* owner;
     const LocalIndex* at_owner;
+    std::size_t count;
   };
-  /// Collective. `nodes` are the items of the mesh that `elements` were taken from.
+  /// Collective. Of the elements that points were placed in. `nodes` are the items of the mesh that `elements` (those
+  /// that this rank owns) were taken from.
   PlacedNodes(const Communicator& comm, const ElementSet& elements, const Items& nodes,
               std::span<const Placement> placements, const std::string& name);
+  /// Collective. Of elements of a mesh by their owners and their places among all elements there.
+  PlacedNodes(const Mesh& mesh, const Items& nodes, const SlotTable& wanted, const std::string& name);
+
+  /// Of the element that a point was placed in.
   Nodes of(std::size_t placement) const { return element(element_of(placement)); }
   std::size_t element_of(std::size_t placement) const { return static_cast<std::size_t>(element_of_[placement]); }
-  std::size_t stride() const { return stride_; }
-  /// The distinct elements.
+  /// The distinct elements; `stride` entries are kept for each.
   std::size_t elements() const { return count_.size(); }
+  std::size_t stride() const { return stride_; }
   Nodes element(std::size_t i) const {
-    return {id_.data() + i * stride_, owner_.data() + i * stride_, at_owner_.data() + i * stride_};
+    return {id_.data() + i * stride_, owner_.data() + i * stride_, at_owner_.data() + i * stride_,
+            static_cast<std::size_t>(count_[i])};
   }
-  std::size_t count(std::size_t element) const { return static_cast<std::size_t>(count_[element]); }
 
  private:
+  template <typename NodesOf>
+  void fetch(const Communicator& comm, const Items& nodes, const SlotTable& wanted, const std::string& name,
+             NodesOf nodes_of);
+
   std::size_t stride_ = 0;
   std::vector<LocalIndex> element_of_;
   std::vector<GlobalId> id_;

@@ -20,10 +20,10 @@ enum class PlaceState : std::uint8_t {
 
 /// Where a point lies.
 struct Placement {
-  GlobalId element = no_id;    ///< that contains it, or the nearest one; no_id: nothing within reach
-  double distance = 0;         ///< from that element, m; 0 inside
-  Vec3 xi{};                   ///< local coordinates
-  LocalIndex item = no_index;  ///< the element's place among all elements of its owner's mesh
+  GlobalId element = no_id;        ///< that contains it, or the nearest one; no_id: nothing within reach
+  double distance = 0;             ///< from that element, m; 0 inside
+  Vec3 xi{};                       ///< local coordinates
+  LocalIndex item = no_index;      ///< the element's place among all elements of its owner's mesh
   LocalIndex at_owner = no_index;  ///< the element's place in its owner's ElementSet
   LocalIndex here = no_index;      ///< and in that in which it was found
   std::int32_t owner = -1;

@@ -14,9 +14,9 @@ namespace tenon::transfer {
 
 namespace {
 
-constexpr std::size_t block_points = 16;    ///< that share a search
-constexpr std::size_t most_leaves = 96;     ///< of the tree that a block may meet
-constexpr std::size_t most_candidates = 24; ///< elements that a point may be in the boxes of
+constexpr std::size_t block_points = 16;     ///< that share a search
+constexpr std::size_t most_leaves = 96;      ///< of the tree that a block may meet
+constexpr std::size_t most_candidates = 24;  ///< elements that a point may be in the boxes of
 constexpr double infinite = std::numeric_limits<double>::infinity();
 /// A point that is farther inside than this needs no comparison with a neighbour, in local coordinates.
 constexpr double well_inside = 1e-9;

@@ -8,9 +8,9 @@
 
 namespace tenon::transfer {
 
-/// Each point by place_inside among the elements whose boxes hold it, else by place_nearest: the same placement, bit for
-/// bit, whatever the other points. Points near each other share the search, and hexahedra are inverted four at a time.
-/// `tree` holds `elements.boxes`. One placement for each point.
+/// Each point by place_inside among the elements whose boxes hold it, else by place_nearest: the same placement, bit
+/// for bit, whatever the other points. Points near each other share the search, and hexahedra are inverted four at a
+/// time. `tree` holds `elements.boxes`. One placement for each point.
 void place_many(const ElementSet& elements, const BoxTree& tree, std::span<const Vec3> points, double reach,
                 const PlaceRules& rules, std::span<Placement> places);
 

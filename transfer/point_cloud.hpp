@@ -10,11 +10,11 @@
 
 namespace tenon::transfer {
 
-/// The points that this rank owns; every point belongs to one rank, and there are no ghosts. Places are given where they
-/// are needed, since points move.
+/// The points that this rank owns; every point belongs to one rank, and there are no ghosts. Places are given where
+/// they are needed, since points move.
 struct PointCloud {
   Communicator comm;
-  std::vector<GlobalId> ids;     ///< ascending on each rank, distinct over all
+  std::vector<GlobalId> ids;      ///< ascending on each rank, distinct over all
   std::string source = "points";  ///< for messages
 };
 

@@ -2,6 +2,7 @@
 #include "transfer/projection_rows.hpp"
 
 #include <algorithm>
+#include <memory>
 #include <numeric>
 
 namespace tenon::transfer {
@@ -41,43 +42,36 @@ class Columns {
     element_table_.number();
     elements_.resize(element_table_.owners().size());
     if (!by_node_) return;
-    std::vector<Placement> places(elements_.size());
-    for (std::size_t k = 0; k < places.size(); ++k) {
-      places[k].element = 0;  // any
-      places[k].owner = element_table_.owners()[k];
-      places[k].item = element_table_.indices()[k];
-    }
-    const PlacedNodes placed(source.mesh, source.nodes, places, name + ".elements");
-    nodes_.reserve(places.size());
-    for (std::size_t k = 0; k < places.size(); ++k) nodes_.push_back(placed.of(k));
+    nodes_ = std::make_unique<PlacedNodes>(source.mesh, source.nodes, element_table_, name + ".elements");
   }
 
   /// Where the items of the interpolation are kept.
   void find_owners(const Side& source, const RowMap& interpolation) {
-    owner_.resize(interpolation.slots()), index_.resize(interpolation.slots());
     std::vector<LocalIndex> here(source.items.ids.size());
     std::iota(here.begin(), here.end(), LocalIndex{0});
-    interpolation.gather().forward(std::span<const int>(source.items.owners), std::span<int>(owner_));
-    interpolation.gather().forward(std::span<const LocalIndex>(here), std::span<LocalIndex>(index_));
+    owner_ = interpolation.gathered(source.items.owners);
+    index_ = interpolation.gathered(std::span<const LocalIndex>(here));
   }
 
   void number(const Side& source, const std::string& name) {
     SlotTable table;
     for (std::size_t s = 0; s < owner_.size(); ++s) table.mark(owner_[s], index_[s]);
-    for (const ElementNodes& nodes : nodes_)
-      for (std::size_t a = 0; a < nodes.count(); ++a) table.mark(nodes.owner[a], nodes.at_owner[a]);
+    for (std::size_t k = 0; by_node_ && k < nodes_->elements(); ++k) {
+      const PlacedNodes::Nodes nodes = nodes_->element(k);
+      for (std::size_t a = 0; a < nodes.count; ++a) table.mark(nodes.owner[a], nodes.at_owner[a]);
+    }
     if (!by_node_)
       for (std::size_t k = 0; k < elements_.size(); ++k)
         table.mark(element_table_.owners()[k], element_table_.indices()[k]);
     table.number();
     for (std::size_t s = 0; s < owner_.size(); ++s) from_interpolation_.push_back(table.slot(owner_[s], index_[s]));
     for (std::size_t k = 0; k < elements_.size(); ++k) {
-      elements_[k].count = by_node_ ? nodes_[k].count() : 1;
+      elements_[k].count = by_node_ ? nodes_->element(k).count : 1;
       for (std::size_t a = 0; a < elements_[k].count; ++a)
-        elements_[k].column[a] = by_node_ ? table.slot(nodes_[k].owner[a], nodes_[k].at_owner[a])
+        elements_[k].column[a] = by_node_ ? table.slot(nodes_->element(k).owner[a], nodes_->element(k).at_owner[a])
                                           : table.slot(element_table_.owners()[k], element_table_.indices()[k]);
     }
-    nodes_.clear();
+    nodes_.reset();
     order(source, table, name);
   }
 
@@ -90,7 +84,7 @@ class Columns {
       return ExchangePlan::from_owners(source.mesh.comm, table.owners(), table.indices(), column_, name + suffix);
     };
     std::vector<GlobalId> ids(count);
-    plan(".ids").forward(std::span<const GlobalId>(source.items.ids), std::span<GlobalId>(ids));
+    plan(".ids").forward(source.items.ids, std::span<GlobalId>(ids));
     std::vector<LocalIndex> by_id(column_);
     std::sort(by_id.begin(), by_id.end(), [&](LocalIndex a, LocalIndex b) {
       return ids[static_cast<std::size_t>(a)] < ids[static_cast<std::size_t>(b)];
@@ -101,7 +95,7 @@ class Columns {
 
   bool by_node_;
   SlotTable element_table_;
-  std::vector<ElementNodes> nodes_;
+  std::unique_ptr<PlacedNodes> nodes_;
   std::vector<ElementColumns> elements_;
   std::vector<int> owner_;
   std::vector<LocalIndex> index_, from_interpolation_, column_;

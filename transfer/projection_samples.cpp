@@ -31,7 +31,8 @@ double mean_edge(const Side& side) {
 /// Collective. Box around all containers of all ranks.
 Box box_of(const Communicator& comm, const Containers& containers) {
   Box mine;
-  for (const Box& box : containers.boxes) mine.add(box);
+  for (const Box& box : containers.set.boxes)
+    if (!box.empty()) mine.add(box);
   std::array<double, 6> ends{-mine.low[0], -mine.low[1], -mine.low[2], mine.high[0], mine.high[1], mine.high[2]};
   comm.max(std::span<double>(ends));
   Box box;
@@ -87,12 +88,11 @@ std::vector<int> take_places(std::vector<Sample>& samples, std::span<const Place
   std::size_t kept = 0;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const Placement& place = places[i];
-    if (place.outside || place.element == no_id) continue;
+    if (place.is_outside() || !place.found()) continue;
     Sample& sample = samples[kept++];
     sample = samples[i];
     sample.target_item = place.item;
-    const auto nodes = static_cast<std::size_t>(topology(place.kind).nodes);
-    std::copy_n(place.weights.begin(), nodes, sample.target_value.begin());
+    shape_weights(place, std::span(sample.target_value).first(place.nodes()));
     owners.push_back(place.owner);
   }
   samples.resize(kept);
@@ -170,9 +170,10 @@ TargetSamples samples_in_target(const Side& source, const Side& target, const Pl
   TargetSamples result;
   std::vector<Sample> arrived;
   {
-    const Containers containers = containers_of(target.mesh, target.coordinates, rules.tolerance, name);
+    const Containers containers = containers_of(target.mesh, target.coordinates, {}, rules.tolerance, name);
     Candidates candidates = candidates_in(source, box_of(comm, containers), spacing, tables);
-    const std::vector<Placement> places = locate(comm, containers, candidates.points, rules, name + ".locate");
+    const std::vector<Placement> places =
+        Locator(comm, rules, false, name + ".locate").find(containers, candidates.points);
     std::vector<Sample> samples = std::move(candidates.samples);
     const std::vector<int> owners = take_places(samples, places);
     result.points = comm.sum(candidates.sought);

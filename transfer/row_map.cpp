@@ -210,8 +210,7 @@ void RowMap::multiply(std::span<const double> gathered, std::span<double> target
 
 std::int64_t RowMap::memory() const {
   return static_cast<std::int64_t>(begin_.capacity() * sizeof(std::int64_t) + slot_.capacity() * sizeof(LocalIndex) +
-                                   weight_.capacity() * sizeof(double) +
-                                   points_.slot_.capacity() * sizeof(LocalIndex) +
+                                   weight_.capacity() * sizeof(double) + points_.slot_.capacity() * sizeof(LocalIndex) +
                                    points_.weight_.capacity() * sizeof(double));
 }
 

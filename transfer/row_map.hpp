@@ -64,8 +64,8 @@ class RawArray {
   std::size_t size_ = 0, capacity_ = 0;
 };
 
-/// Rows of interpolation, all with room for `width` terms. The heaviest term comes first, and the first of the element's
-/// nodes takes its place; the weights of a row add up to 1, so that of the first is not kept: 88 bytes for a
+/// Rows of interpolation, all with room for `width` terms. The heaviest term comes first, and the first of the
+/// element's nodes takes its place; the weights of a row add up to 1, so that of the first is not kept: 88 bytes for a
 /// hexahedron. Every row must be set once.
 class PointRows {
  public:

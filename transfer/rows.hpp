@@ -37,7 +37,7 @@ struct InterpolationSource {
   const ElementSet& elements;
   const Items& nodes;
   Location location = Location::node;
-  std::size_t width = 1;        ///< most values that a point takes, the same on every rank
+  std::size_t width = 1;        ///< most nodes of an element, the same on every rank
   std::size_t local_items = 0;  ///< of `location` on this rank
 };
 
@@ -46,6 +46,10 @@ struct InterpolationSource {
 /// `drop_outside`, points outside have no terms and receive `empty_value`. `room`: rows to be written over.
 RowMap interpolation_map(const Communicator& comm, const InterpolationSource& source, std::span<const Placement> places,
                          bool drop_outside, double empty_value, PointRows&& room, const std::string& name);
+
+/// Collective. The same of one mesh onto another, once, in one go. `sought` receives the owned items.
+RowMap interpolation_map(const Side& source, const Side& target, const PlaceRules& rules, bool drop_outside,
+                         double empty_value, const std::string& name, Sought& sought);
 
 /// Collective. Terms of each owned target item from all source items that have points near it. Sums over the columns
 /// are 1 (totals); with `density`, weights are multiplied by the source item's volume and divided by the target's.

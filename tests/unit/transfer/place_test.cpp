@@ -91,11 +91,20 @@ TEST(Place, OutsideIsNotInside) {
 }
 
 TEST(Place, SharedFaceGoesToTheSmallestId) {
-  ElementSet both = element(
-      ElementKind::hex8,
-      {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}, {2, 0, 0}, {2, 1, 0},
-       {2, 0, 1}, {2, 1, 1}},
-      7);
+  ElementSet both = element(ElementKind::hex8,
+                            {{0, 0, 0},
+                             {1, 0, 0},
+                             {1, 1, 0},
+                             {0, 1, 0},
+                             {0, 0, 1},
+                             {1, 0, 1},
+                             {1, 1, 1},
+                             {0, 1, 1},
+                             {2, 0, 0},
+                             {2, 1, 0},
+                             {2, 0, 1},
+                             {2, 1, 1}},
+                            7);
   both.stride = 8;
   both.nodes = {0, 1, 2, 3, 4, 5, 6, 7, 1, 8, 9, 2, 5, 10, 11, 6};
   both.ids = {7, 4}, both.items = {7, 4};
