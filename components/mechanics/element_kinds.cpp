@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "components/mechanics/element_kinds.hpp"
 
+#include <fmt/core.h>
+
 #include "components/mechanics/hex8_group.hpp"
 #include "components/mechanics/shell4_group.hpp"
 #include "components/mechanics/solid_group.hpp"
@@ -12,6 +14,10 @@ std::unique_ptr<ElementGroup> make_element_group(std::size_t block, const Elemen
                                                  const MechanicsOptions::Block& description,
                                                  const MechanicsOptions& options) {
   using Formulation = MechanicsOptions::Formulation;
+  if (!middle_nodes(elements.kind).empty())
+    throw Error(ExitCode::usage, fmt::format("mechanics: block '{}' consists of {}; expected elements of first order: "
+                                             "hex8, tet4, wedge6, pyramid5, quad4 or tri3",
+                                             elements.name, topology(elements.kind).name));
   if (topology(elements.kind).dimension == 2)
     return make_shell_group(block, elements, coordinates, description.material, description.shell, options.viscosity);
   if (elements.kind == ElementKind::hex8 && description.formulation != Formulation::full)

@@ -67,6 +67,12 @@ void read_block(const Value& value, const MeshSummary::Entry& entry, const Value
                 MechanicsOptions& options, Diagnostics& diagnostics) {
   const MaterialDescription* const material = find_elastic(from, materials, diagnostics);
   if (!material) return;
+  if (!middle_nodes(entry.kind).empty())
+    diagnostics.error(value.where("mesh"),
+                      fmt::format("mesh: block '{}' consists of {}; mechanics computes elements of first order only: "
+                                  "mesh the body with hex8, tet4, wedge6 or pyramid5 (elements of second order can be "
+                                  "sources of a transfer)",
+                                  entry.name, topology(entry.kind).name));
   options.blocks.push_back({entry.name, *material, read_formulation(from), {}});
   if (topology(entry.kind).dimension == 2)
     options.blocks.back().shell = read_shell(from, value, entry.name, diagnostics);

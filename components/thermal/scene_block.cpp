@@ -152,6 +152,12 @@ std::vector<ThermalBlock> read_blocks(const Value& value, const MeshSummary& mes
           diagnostics.error(value.where("mesh"),
                             fmt::format("mesh: block '{}' consists of {}; only solid elements conduct heat", entry.name,
                                         topology(entry.kind).name));
+        if (!middle_nodes(entry.kind).empty())
+          diagnostics.error(value.where("mesh"),
+                            fmt::format("mesh: block '{}' consists of {}; heat is conducted by elements of first order "
+                                        "only: mesh the body with hex8, tet4, wedge6 or pyramid5 (elements of second "
+                                        "order can be sources of a transfer)",
+                                        entry.name, topology(entry.kind).name));
         blocks.push_back(thermal_block(entry.name, from, materials, diagnostics));
       });
   return blocks;

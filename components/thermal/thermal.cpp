@@ -24,6 +24,10 @@ std::vector<thermal::Conductivity> conductivities(const Mesh& mesh, const Therma
       throw Error(ExitCode::usage, fmt::format("heat conduction: block '{}' of the mesh {} consists of {}; only solid "
                                                "elements conduct",
                                                block.name, mesh.source, topology(block.kind).name));
+    if (!middle_nodes(block.kind).empty())
+      throw Error(ExitCode::usage, fmt::format("heat conduction: block '{}' of the mesh {} consists of {}; expected "
+                                               "elements of first order: hex8, tet4, wedge6 or pyramid5",
+                                               block.name, mesh.source, topology(block.kind).name));
     thermal::Conductivity& k = of_block.emplace_back(found->conductivity);
     if (found->conductivity_over_temperature) k.over_temperature = *found->conductivity_over_temperature;
     k.tensor = found->conductivity_tensor;

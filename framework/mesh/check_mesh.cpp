@@ -10,6 +10,7 @@
 #include "framework/base/error.hpp"
 #include "framework/mesh/facets.hpp"
 #include "framework/mesh/mesh_data.hpp"
+#include "framework/mesh/shape_functions.hpp"
 
 namespace tenon {
 
@@ -47,8 +48,10 @@ std::span<const Frame> frames(ElementKind kind) {
   static constexpr std::array<Frame, 1> tri{{{0, 1, 2, -1}}};
   switch (kind) {
     case ElementKind::hex8:
+    case ElementKind::hex20:
       return hex;
     case ElementKind::tet4:
+    case ElementKind::tet10:
       return tet;
     case ElementKind::wedge6:
       return wedge;
@@ -62,8 +65,24 @@ std::span<const Frame> frames(ElementKind kind) {
   return tri;
 }
 
+/// Least of det(dx/dxi) of an element of second order at its nodes and at the points where it is integrated, m^3.
+double least_of_curved(ElementKind kind, const GlobalId* nodes, const std::vector<Vec3>& coordinates) {
+  std::array<Vec3, max_element_nodes> x;
+  const auto count = static_cast<std::size_t>(topology(kind).nodes);
+  for (std::size_t a = 0; a < count; ++a) x[a] = coordinates[static_cast<std::size_t>(nodes[a])];
+  double least = std::numeric_limits<double>::infinity();
+  const auto look = [&](const Vec3& xi) {
+    const double here = jacobian_determinant(kind, std::span(x).first(count), xi);
+    if (!(here >= least)) least = here;
+  };
+  for (const Vec3& xi : local_nodes(kind)) look(xi);
+  for (const QuadraturePoint& q : quadrature(kind)) look(q.xi);
+  return least;
+}
+
 /// Least of det(dx/dxi) at the corners, up to a positive factor, m^3; for surfaces the least area of a corner, m^2.
 double least_corner(ElementKind kind, const GlobalId* nodes, const std::vector<Vec3>& coordinates) {
+  if (!middle_nodes(kind).empty()) return least_of_curved(kind, nodes, coordinates);
   const auto x = [&](std::int8_t n) -> const Vec3& { return coordinates[static_cast<std::size_t>(nodes[n])]; };
   double least = std::numeric_limits<double>::infinity();
   for (const Frame& f : frames(kind)) {
@@ -148,10 +167,9 @@ void check_jacobians(const MeshData& mesh) {
                          centre[2], topology(block.kind).dimension == 3 ? "Jacobian determinant" : "area", least);
     });
   });
-  bad.throw_if_any(
-      ExitCode::geometry, mesh, "elements are inverted or degenerate",
-      "The Jacobian determinant must be positive at every corner: check the order of the nodes, and improve "
-      "the mesh there.");
+  bad.throw_if_any(ExitCode::geometry, mesh, "elements are inverted or degenerate",
+                   "The Jacobian determinant must be positive at every node: check the order of the nodes, and improve "
+                   "the mesh there.");
 }
 
 void check_sets(const MeshData& mesh) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "framework/mesh/second_order.hpp"
 #include "framework/mesh/shape_functions.hpp"
 #include "framework/mesh/trilinear.hpp"
 
@@ -138,6 +139,35 @@ InverseMap search(ElementKind kind, const Residual& f) {
   return best;
 }
 
+/// With curved edges the map may have several solutions of positive determinant: one outside counts only if there is
+/// none inside. That is sure if the point is outside the element's box, or if the map is one-to-one on a region that
+/// holds both; else Newton from many places looks for another.
+InverseMap curved_search(ElementKind kind, std::span<const Vec3> nodes, const Vec3& point) {
+  const second_order::Map f(kind, nodes, point);
+  const Outcome first = newton(f, element_centre(kind));
+  const bool usable = first.map.converged && first.right_branch;
+  const double outside = overshoot(kind, first.map.xi);
+  if (usable && outside == 0) return first.map;
+  Box box = second_order::bezier_box(kind, nodes);
+  box.inflate(1e-6 * box.diagonal());
+  if (usable) {
+    const double reach = greatest(first.map.xi - element_centre(kind));
+    const double of_element = kind == ElementKind::hex20 ? 1.0 : 0.75;
+    if (!box.contains(point) || f.is_injective_within(std::max(reach, of_element))) return first.map;
+  }
+  InverseMap best = first.map;
+  best.converged = usable;
+  double least = usable ? outside : std::numeric_limits<double>::infinity();
+  for (const QuadraturePoint& q : quadrature(kind)) {
+    const Outcome other = newton(f, q.xi);
+    if (!other.map.converged || !other.right_branch) continue;
+    const double overshot = overshoot(kind, other.map.xi);
+    if (overshot < least) best = other.map, least = overshot;
+    if (least == 0) break;
+  }
+  return best;
+}
+
 InverseMap tet_inverse(std::span<const Vec3> corners, const Vec3& point) {
   InverseMap result{element_centre(ElementKind::tet4), false};
   const std::array<Vec3, 3> j{corners[1] - corners[0], corners[2] - corners[0], corners[3] - corners[0]};
@@ -157,6 +187,9 @@ InverseMap inverse_map(ElementKind kind, std::span<const Vec3> corners, const Ve
       return search(kind, PyramidResidual(corners, point));
     case ElementKind::tet4:
       return tet_inverse(corners, point);
+    case ElementKind::hex20:
+    case ElementKind::tet10:
+      return curved_search(kind, corners, point);
     case ElementKind::quad4:
     case ElementKind::tri3:
       break;
@@ -169,9 +202,11 @@ double overshoot(ElementKind kind, const Vec3& xi) {
   double outside = 0;
   switch (kind) {
     case ElementKind::hex8:
+    case ElementKind::hex20:
       outside = std::max({x, y, z}) - 1;
       break;
     case ElementKind::tet4:
+    case ElementKind::tet10:
       outside = 2 * std::max({-xi[0], -xi[1], -xi[2], xi[0] + xi[1] + xi[2] - 1});
       break;
     case ElementKind::wedge6:

@@ -22,8 +22,12 @@ std::vector<GlobalId> nodes_of(const MeshData& mesh, const std::vector<SideData>
     const Topology& t = topology(block.kind);
     const auto at = static_cast<std::size_t>(side.element - first[b]) * static_cast<std::size_t>(t.nodes);
     const auto s = static_cast<std::size_t>(side.side);
-    for (std::size_t i = 0; i < static_cast<std::size_t>(t.side_nodes[s]); ++i)
+    const auto count = static_cast<std::size_t>(t.side_nodes[s]);
+    for (std::size_t i = 0; i < count; ++i) {
       nodes.push_back(block.connectivity[at + static_cast<std::size_t>(t.side[s][i])]);
+      if (const int middle = middle_node(block.kind, t.side[s][i], t.side[s][(i + 1) % count]); middle >= 0)
+        nodes.push_back(block.connectivity[at + static_cast<std::size_t>(middle)]);
+    }
   }
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "framework/base/box.hpp"
+#include "framework/mesh/curved_face.hpp"
 #include "framework/mesh/shape_functions.hpp"
 
 namespace tenon {
@@ -12,25 +13,6 @@ namespace tenon {
 namespace {
 
 using Vec2 = std::array<double, 2>;
-
-/// Local coordinates of the corners of the reference elements.
-std::array<Vec3, max_element_nodes> reference_corners(ElementKind kind) {
-  switch (kind) {
-    case ElementKind::tet4:
-      return {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-    case ElementKind::wedge6:
-      return {{{0, 0, -1}, {1, 0, -1}, {0, 1, -1}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}}};
-    case ElementKind::pyramid5:
-      return {{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {0, 0, 1}}};
-    case ElementKind::quad4:
-      return {{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}};
-    case ElementKind::tri3:
-      return {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}};
-    case ElementKind::hex8:
-      break;
-  }
-  return {{{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}}};
-}
 
 /// Parameter in [0, 1] of the point of the segment a, a + d nearest to the origin.
 double on_segment(const Vec3& a, const Vec3& d) {
@@ -187,8 +169,10 @@ NearestPoint nearest_point(ElementKind kind, std::span<const Vec3> corners, cons
   const InverseMap inside = inverse_map(kind, corners, point);
   if (inside.converged && overshoot(kind, inside.xi) == 0) return {inside.xi, 0.0};
 
+  if (!middle_nodes(kind).empty()) return nearest_on_curved_sides(kind, corners, point);
+
   const Topology& t = topology(kind);
-  const std::array<Vec3, max_element_nodes> reference = reference_corners(kind);
+  const std::span<const Vec3> reference = local_nodes(kind);
   NearestPoint best{element_centre(kind), std::numeric_limits<double>::infinity()};
   std::array<SeenSide, max_sides> sides{};
   const std::size_t count = see_sides(t, corners, point, sides);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "framework/mesh/second_order.hpp"
 #include "framework/mesh/trilinear.hpp"
 
 namespace tenon {
@@ -161,6 +162,12 @@ void shape_values(ElementKind kind, const Vec3& xi, std::span<double> values) {
     case ElementKind::tri3:
       values[0] = 1 - xi[0] - xi[1], values[1] = xi[0], values[2] = xi[1];
       return;
+    case ElementKind::hex20:
+      second_order::hex20_values(xi, values);
+      return;
+    case ElementKind::tet10:
+      second_order::tet10_values(xi, values);
+      return;
   }
 }
 
@@ -187,12 +194,45 @@ void shape_gradients(ElementKind kind, const Vec3& xi, std::span<Vec3> gradients
     case ElementKind::tri3:
       gradients[0] = {-1, -1, 0}, gradients[1] = {1, 0, 0}, gradients[2] = {0, 1, 0};
       return;
+    case ElementKind::hex20:
+      second_order::hex20_gradients(xi, gradients);
+      return;
+    case ElementKind::tet10:
+      second_order::tet10_gradients(xi, gradients);
+      return;
   }
+}
+
+std::span<const Vec3> local_nodes(ElementKind kind) {
+  static constexpr std::array<Vec3, 6> wedge{{{0, 0, -1}, {1, 0, -1}, {0, 1, -1}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}}};
+  static constexpr std::array<Vec3, 5> pyramid{{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {0, 0, 1}}};
+  static constexpr std::array<Vec3, 4> quad{{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}};
+  static constexpr std::array<Vec3, 3> tri{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}};
+  switch (kind) {
+    case ElementKind::hex8:
+      return hex_corner;
+    case ElementKind::tet4:
+      return std::span(second_order::tet10_nodes).first(4);
+    case ElementKind::wedge6:
+      return wedge;
+    case ElementKind::pyramid5:
+      return pyramid;
+    case ElementKind::quad4:
+      return quad;
+    case ElementKind::tri3:
+      return tri;
+    case ElementKind::hex20:
+      return second_order::hex20_nodes;
+    case ElementKind::tet10:
+      break;
+  }
+  return second_order::tet10_nodes;
 }
 
 Vec3 element_centre(ElementKind kind) {
   switch (kind) {
     case ElementKind::tet4:
+    case ElementKind::tet10:
       return {0.25, 0.25, 0.25};
     case ElementKind::wedge6:
     case ElementKind::tri3:
@@ -201,14 +241,21 @@ Vec3 element_centre(ElementKind kind) {
       return {0, 0, 0.25};
     case ElementKind::hex8:
     case ElementKind::quad4:
+    case ElementKind::hex20:
       break;
   }
   return {0, 0, 0};
 }
 
 std::span<const QuadraturePoint> quadrature(ElementKind kind) {
-  static const std::array<Rule, element_kinds> rules{hex_rule(),     tet_rule(),  wedge_rule(),
-                                                     pyramid_rule(), quad_rule(), tri_rule()};
+  static const std::array<Rule, element_kinds> rules{hex_rule(),
+                                                     tet_rule(),
+                                                     wedge_rule(),
+                                                     pyramid_rule(),
+                                                     quad_rule(),
+                                                     tri_rule(),
+                                                     second_order::hex20_rule(),
+                                                     second_order::tet10_rule()};
   return rules[static_cast<std::size_t>(kind)];
 }
 
@@ -231,14 +278,21 @@ double element_measure(ElementKind kind, std::span<const Vec3> corners) {
   if (kind == ElementKind::tet4)
     return triple(corners[1] - corners[0], corners[2] - corners[0], corners[3] - corners[0]) / 6;
   if (kind == ElementKind::tri3) return 0.5 * norm(cross(corners[1] - corners[0], corners[2] - corners[0]));
-  // The determinants of wedge and pyramid are polynomials that these rules integrate exactly; the area of a quad4 is
-  // exact where it is plane.
+  // The determinants of wedge, pyramid, hex20 and tet10 are polynomials that these rules integrate exactly; the area of
+  // a quad4 is exact where it is plane.
   double sum = 0;
   for (const QuadraturePoint& q : quadrature(kind)) {
     const std::array<Vec3, 3> j = jacobian(kind, corners, q.xi);
     sum += q.weight * (kind == ElementKind::quad4 ? norm(cross(j[0], j[1])) : triple(j[0], j[1], j[2]));
   }
   return sum;
+}
+
+Box element_box(ElementKind kind, std::span<const Vec3> nodes) {
+  if (!middle_nodes(kind).empty()) return second_order::bezier_box(kind, nodes);
+  Box box;
+  for (const Vec3& x : nodes) box.add(x);
+  return box;
 }
 
 }  // namespace tenon

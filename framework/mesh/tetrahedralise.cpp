@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "framework/base/error.hpp"
 #include "framework/mesh/facets.hpp"
 #include "framework/mesh/generators.hpp"
 
@@ -105,6 +106,11 @@ BlockData cut_block(const BlockData& block, std::int64_t& label, GlobalId& eleme
 }  // namespace
 
 MeshData tetrahedralise(const MeshData& mesh) {
+  for (const BlockData& block : mesh.blocks)
+    if (!middle_nodes(block.kind).empty())
+      throw Error(ExitCode::usage, mesh.source + ": block '" + block.name + "' consists of " +
+                                       std::string(topology(block.kind).name) +
+                                       "; only linear elements are cut into tetrahedra");
   MeshData result = mesh;
   result.blocks.clear();
   result.side_sets.clear();

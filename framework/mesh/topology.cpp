@@ -92,6 +92,17 @@ constexpr std::array<Topology, element_kinds> topologies{{
      "tet tet10 tetra tetra10 tetrahedron"},
 }};
 
+constexpr std::array<CornerPair, 12> hex_edges{
+    {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}}};
+constexpr std::array<CornerPair, 6> tet_edges{{{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
+
+// Exodus [SY94] has the upright edges of a hex20 before those of its top; Gmsh [GR09] goes round corner by corner, and
+// exchanges the last two nodes of a tet10.
+constexpr std::array<std::int8_t, 20> exodus_hex20{0,  1,  2,  3,  4,  5,  6,  7,  8,  9,
+                                                   10, 11, 16, 17, 18, 19, 12, 13, 14, 15};
+constexpr std::array<std::int8_t, 20> gmsh_hex20{0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 13, 9, 16, 18, 19, 17, 10, 12, 14, 15};
+constexpr std::array<std::int8_t, 10> gmsh_tet10{0, 1, 2, 3, 4, 5, 6, 7, 9, 8};
+
 /// Whether `word` is one of the space-separated words of `list`.
 bool among(std::string_view list, std::string_view word) {
   while (!list.empty()) {
@@ -106,6 +117,36 @@ bool among(std::string_view list, std::string_view word) {
 
 const Topology& topology(ElementKind kind) {
   return topologies[static_cast<std::size_t>(kind)];
+}
+
+std::span<const CornerPair> middle_nodes(ElementKind kind) {
+  if (kind == ElementKind::hex20) return hex_edges;
+  if (kind == ElementKind::tet10) return tet_edges;
+  return {};
+}
+
+int corner_count(ElementKind kind) {
+  return topology(kind).nodes - static_cast<int>(middle_nodes(kind).size());
+}
+
+int middle_node(ElementKind kind, int corner_a, int corner_b) {
+  int node = corner_count(kind);
+  for (const CornerPair& edge : middle_nodes(kind)) {
+    if ((edge[0] == corner_a && edge[1] == corner_b) || (edge[0] == corner_b && edge[1] == corner_a)) return node;
+    ++node;
+  }
+  return -1;
+}
+
+std::span<const std::int8_t> exodus_node_order(ElementKind kind) {
+  if (kind == ElementKind::hex20) return exodus_hex20;
+  return {};
+}
+
+std::span<const std::int8_t> gmsh_node_order(ElementKind kind) {
+  if (kind == ElementKind::hex20) return gmsh_hex20;
+  if (kind == ElementKind::tet10) return gmsh_tet10;
+  return {};
 }
 
 std::optional<ElementKind> kind_of_exodus(std::string_view type, int nodes) {

@@ -18,10 +18,9 @@ constexpr int most_groups = 1000;
 /// Names of the types that are refused, for the message.
 std::string type_name(int type) {
   static const std::map<int, std::string> names{
-      {8, "3-node line"},         {9, "6-node triangle"},     {10, "9-node quadrangle"}, {11, "10-node tetrahedron"},
-      {12, "27-node hexahedron"}, {13, "18-node prism"},      {14, "14-node pyramid"},   {16, "8-node quadrangle"},
-      {17, "20-node hexahedron"}, {18, "15-node prism"},      {19, "13-node pyramid"},   {21, "10-node triangle"},
-      {26, "4-node line"},        {29, "20-node tetrahedron"}};
+      {10, "9-node quadrangle"}, {12, "27-node hexahedron"}, {13, "18-node prism"},
+      {14, "14-node pyramid"},   {18, "15-node prism"},      {19, "13-node pyramid"},
+      {21, "10-node triangle"},  {26, "4-node line"},        {29, "20-node tetrahedron"}};
   const auto found = names.find(type);
   return "type " + std::to_string(type) + (found == names.end() ? "" : " (" + found->second + ")");
 }
@@ -192,15 +191,23 @@ class Parser {
     if (type == gmsh_point || type == gmsh_line) {
       elements.dimension = type == gmsh_line ? 1 : 0;
       elements.nodes_each = elements.dimension + 1;
+      elements.corners = elements.nodes_each;
+    } else if (type == gmsh_line3 || type == gmsh_tri6 || type == gmsh_quad8) {
+      elements.dimension = type == gmsh_line3 ? 1 : 2;
+      elements.corners = type == gmsh_line3 ? 2 : type == gmsh_tri6 ? 3 : 4;
+      elements.nodes_each = type == gmsh_line3 ? 3 : 2 * elements.corners;
     } else if (const auto kind = kind_of_gmsh(type)) {
       elements.dimension = topology(*kind).dimension;
       elements.nodes_each = topology(*kind).nodes;
+      elements.corners = corner_count(*kind);
     } else {
       in_.refuse_here(
           "elements of " + type_name(type) +
           " are not read; read are points, 2-node lines, 3-node triangles, 4-node quadrangles, 4-node "
-          "tetrahedra, 8-node hexahedra, 6-node prisms and 5-node pyramids. For a mesh of higher order, set "
-          "Mesh.ElementOrder = 1 in Gmsh and mesh again");
+          "tetrahedra, 8-node hexahedra, 6-node prisms and 5-node pyramids, and of second order 10-node tetrahedra and "
+          "20-node hexahedra with their boundaries. For other meshes of higher order, set Mesh.ElementOrder = 1 in "
+          "Gmsh "
+          "(for hexahedra, Mesh.SecondOrderIncomplete = 1) and mesh again");
     }
     file_.elements.push_back(std::move(elements));
     return file_.elements.back();

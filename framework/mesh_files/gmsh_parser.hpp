@@ -12,13 +12,15 @@
 
 namespace tenon::mesh_file {
 
-inline constexpr int gmsh_line = 1, gmsh_point = 15;  ///< element types besides those of topology.hpp
+/// Element types besides those of topology.hpp. The last three bound elements of second order.
+inline constexpr int gmsh_line = 1, gmsh_point = 15, gmsh_line3 = 8, gmsh_tri6 = 9, gmsh_quad8 = 16;
 
 /// Elements that follow each other in the file and have all of this in common.
 struct GmshElements {
   int type = 0;       ///< Gmsh's number of the element type
   int dimension = 0;  ///< of the elements
   int nodes_each = 0;
+  int corners = 0;                   ///< of the elements of a boundary; their middle nodes stand behind them
   std::vector<std::int64_t> groups;  ///< physical tags, ascending; negative ones (reversed) by their magnitude
   bool reversed = false;             ///< the first group wants the opposite orientation
   std::vector<std::int64_t> labels;

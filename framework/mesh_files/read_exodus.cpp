@@ -14,7 +14,7 @@ namespace {
 using mesh_file::NetcdfFile;
 using mesh_file::refuse;
 
-constexpr const char* supported = "read are HEX8, TETRA4, WEDGE6, PYRAMID5, SHELL4 or QUAD4, and TRI3";
+constexpr const char* supported = "read are HEX8, TETRA4, WEDGE6, PYRAMID5, SHELL4 or QUAD4, TRI3, HEX20 and TETRA10";
 
 class ExodusReader {
  public:
@@ -99,7 +99,7 @@ class ExodusReader {
     if (size == 0 && !kind) return;  // a block without elements may be of any type, such as NULL
     if (!kind)
       refuse(path_, who + " has elements of type '" + type + "' with " + std::to_string(per_element) + " nodes; " +
-                        supported + ". Elements of higher order must be converted to first order by the mesh program");
+                        supported + ". Other elements of higher order must be converted to these by the mesh program");
     if (dimension_ == 2 && topology(*kind).dimension != 2)
       refuse(path_, who + " has solid elements ('" + type + "') in a mesh of two dimensions");
     BlockData block{entry.name, entry.label, *kind, {}, {}};
@@ -111,6 +111,7 @@ class ExodusReader {
                who + " uses node " + std::to_string(node) + ", but there are nodes 1 to " + std::to_string(nodes_));
       --node;
     }
+    mesh_file::from_file_order(block.connectivity, exodus_node_order(*kind));
     block.labels.assign(static_cast<std::size_t>(size), 0);
     first_elements_.push_back(read_elements_);
     read_elements_ += size;

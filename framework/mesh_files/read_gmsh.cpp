@@ -31,6 +31,7 @@ class GmshReader {
     for (const GmshElements& e : file_.elements)
       if (!e.labels.empty()) top_ = std::max(top_, e.dimension);
     if (top_ < 2) refuse(file_.path, "has no volume or surface elements, only points and lines");
+    if (top_ == 2) refuse_curved_surfaces();
     if (file_.repeats_elements) drop_repeated_elements();
     collect_groups();
     make_blocks();
@@ -75,6 +76,15 @@ class GmshReader {
       }
     mesh_.coordinates = std::move(file_.coordinates);
     mesh_.node_labels = std::move(file_.node_tags);
+  }
+
+  /// Triangles and quadrangles of second order are read as boundaries of solids only.
+  void refuse_curved_surfaces() const {
+    for (const GmshElements& e : file_.elements)
+      if (e.dimension == 2 && !e.labels.empty() && !kind_of_gmsh(e.type))
+        refuse(file_.path, "element " + std::to_string(e.labels.front()) +
+                               " is a surface element of second order, which is read only as the boundary of volume "
+                               "elements; set Mesh.ElementOrder = 1 in Gmsh and mesh again");
   }
 
   /// Format 2 writes an element of several groups once for each of them, under different numbers: the one of the group
@@ -150,7 +160,7 @@ class GmshReader {
       for (const std::int64_t tag : tags) {
         Group& group = groups_[static_cast<std::size_t>(chunk.dimension)][tag];
         group.all.push_back(&chunk);
-        if (chunk.dimension >= 2) group.kinds[*kind_of_gmsh(chunk.type)].push_back(&chunk);
+        if (chunk.dimension >= 2 && kind_of_gmsh(chunk.type)) group.kinds[*kind_of_gmsh(chunk.type)].push_back(&chunk);
       }
     }
     if (several > 0) warn_several_groups(several);
@@ -182,6 +192,7 @@ class GmshReader {
         const auto each = static_cast<std::ptrdiff_t>(chunk->nodes_each);
         const std::size_t start = block.connectivity.size();
         block.connectivity.insert(block.connectivity.end(), chunk->nodes.begin(), chunk->nodes.end());
+        mesh_file::from_file_order(std::span(block.connectivity).subspan(start), gmsh_node_order(kind));
         if (chunk->reversed)
           for (auto e = block.connectivity.begin() + static_cast<std::ptrdiff_t>(start); e != block.connectivity.end();
                e += each)
@@ -210,7 +221,7 @@ class GmshReader {
         count += chunk->labels.size();
         if (dimension > 0) find_sides(finder, *chunk, sides.sides);
       }
-      if (sides.sides.empty() && dimension == 2) {
+      if (sides.sides.empty() && dimension == 2 && !group.kinds.empty()) {
         mesh_.warnings.push_back("the surface group '" + sides.name +
                                  "' lies on no volume element and becomes a block of shells");
         add_blocks(group, name_of(2, tag, "block"), tag);
@@ -234,9 +245,9 @@ class GmshReader {
   }
 
   static void find_sides(const SideFinder& finder, const GmshElements& chunk, std::vector<SideData>& sides) {
-    const auto each = static_cast<std::size_t>(chunk.nodes_each);
+    const auto each = static_cast<std::size_t>(chunk.nodes_each), corners = static_cast<std::size_t>(chunk.corners);
     for (std::size_t e = 0; e < chunk.labels.size(); ++e)
-      if (const auto side = finder.find(std::span(chunk.nodes).subspan(e * each, each))) sides.push_back(*side);
+      if (const auto side = finder.find(std::span(chunk.nodes).subspan(e * each, corners))) sides.push_back(*side);
   }
 
   GmshFile file_;

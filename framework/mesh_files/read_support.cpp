@@ -157,6 +157,16 @@ void make_labels_distinct(std::vector<Entry>& entries) {
 
 }  // namespace
 
+void from_file_order(std::span<std::int64_t> connectivity, std::span<const std::int8_t> order) {
+  if (order.empty()) return;
+  std::array<std::int64_t, max_element_nodes> stored{};
+  for (std::size_t first = 0; first < connectivity.size(); first += order.size()) {
+    const auto element = connectivity.subspan(first, order.size());
+    std::copy(element.begin(), element.end(), stored.begin());
+    for (std::size_t i = 0; i < order.size(); ++i) element[i] = stored[static_cast<std::size_t>(order[i])];
+  }
+}
+
 void finish(MeshData& mesh) {
   if (mesh.elements() == 0) refuse(mesh.source, "has no elements");
   drop_unused_nodes(mesh);

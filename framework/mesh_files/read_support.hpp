@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -25,6 +26,10 @@ std::string printable(std::string_view text);
 
 /// Runs `read`; running out of memory, which only a corrupt file or a small computer does, becomes a refusal.
 MeshData within_memory(const std::string& path, const std::function<MeshData()>& read);
+
+/// Puts the nodes of elements into our order; node i of an element stands at order[i] in the file, an empty order is
+/// ours.
+void from_file_order(std::span<std::int64_t> connectivity, std::span<const std::int8_t> order);
 
 /// Last step of every reader: refuses coordinates that are not finite and meshes without elements, drops nodes that no
 /// element uses, gives distinct names and ids, and sorts the sets. Indices must have been checked before.

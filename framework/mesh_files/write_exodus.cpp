@@ -30,6 +30,10 @@ std::string exodus_type(ElementKind kind) {
       return "PYRAMID5";
     case ElementKind::quad4:
       return "SHELL4";
+    case ElementKind::hex20:
+      return "HEX20";
+    case ElementKind::tet10:
+      return "TETRA10";
     case ElementKind::tri3:
       break;
   }
@@ -127,7 +131,9 @@ class ExodusWriter {
       require(ex_put_name(id_, EX_ELEM_BLOCK, block.label, block.name.c_str()), "the name '" + block.name + "'");
       labels.insert(labels.end(), block.labels.begin(), block.labels.end());
       if (count == 0) continue;
-      const std::vector<GlobalId> nodes = from_one(block.connectivity);
+      std::vector<GlobalId> nodes = from_one(block.connectivity);
+      // Exodus and we exchange two rows of middle nodes: the permutation is its own inverse.
+      mesh_file::from_file_order(nodes, exodus_node_order(block.kind));
       require(ex_put_conn(id_, EX_ELEM_BLOCK, block.label, nodes.data(), nullptr, nullptr),
               "block '" + block.name + "'");
     }

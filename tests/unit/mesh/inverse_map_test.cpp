@@ -148,7 +148,7 @@ double sampled_distance(ElementKind kind, const std::vector<Vec3>& x, const Vec3
       for (int j = 0; j <= n; ++j)
         for (int k = 0; k <= n; ++k) {
           Vec3 xi = around + width * Vec3{2.0 * i / n - 1, 2.0 * j / n - 1, 2.0 * k / n - 1};
-          if (kind == ElementKind::hex8)
+          if (kind == ElementKind::hex8 || kind == ElementKind::hex20)
             for (double& c : xi) c = std::clamp(c, -1.0, 1.0);
           if (overshoot(kind, xi) > 0) continue;
           if (const double d = norm(map_to_space(kind, x, xi) - point); d < least) least = d, centre = xi;
@@ -223,7 +223,8 @@ TEST(NearestPoint, OfDegenerateElementsIsFinite) {
     EXPECT_NEAR(nearest_point(kind, point, {1, 2, 5}).distance, 2, 1e-15);
     std::vector<Vec3> line = reference_element(kind);
     for (Vec3& p : line) p = {p[0], 0, 0};
-    const double low = kind == ElementKind::tet4 || kind == ElementKind::wedge6 || kind == ElementKind::tri3 ? 0 : -1;
+    double low = 0;
+    for (const Vec3& p : line) low = std::min(low, p[0]);
     for (int trial = 0; trial < 50; ++trial) {
       const Vec3 target = random.vector(-3, 3);
       const Vec3 foot{std::clamp(target[0], low, 1.0), 0, 0};

@@ -10,11 +10,13 @@
 
 namespace tenon::testing {
 
-inline constexpr std::array<ElementKind, element_kinds> all_kinds{ElementKind::hex8,   ElementKind::tet4,
-                                                                  ElementKind::wedge6, ElementKind::pyramid5,
-                                                                  ElementKind::quad4,  ElementKind::tri3};
-inline constexpr std::array<ElementKind, 4> solid_kinds{ElementKind::hex8, ElementKind::tet4, ElementKind::wedge6,
-                                                        ElementKind::pyramid5};
+inline constexpr std::array<ElementKind, element_kinds> all_kinds{
+    ElementKind::hex8,  ElementKind::tet4, ElementKind::wedge6, ElementKind::pyramid5,
+    ElementKind::quad4, ElementKind::tri3, ElementKind::hex20,  ElementKind::tet10};
+inline constexpr std::array<ElementKind, 6> solid_kinds{ElementKind::hex8,     ElementKind::tet4,  ElementKind::wedge6,
+                                                        ElementKind::pyramid5, ElementKind::hex20, ElementKind::tet10};
+inline constexpr std::array<ElementKind, 4> linear_solid_kinds{ElementKind::hex8, ElementKind::tet4,
+                                                               ElementKind::wedge6, ElementKind::pyramid5};
 
 /// Uniform in [0, 1), the same everywhere.
 class Random {
@@ -34,9 +36,16 @@ class Random {
   std::uint64_t state_;
 };
 
-/// Corners of the reference element, in its local coordinates.
+/// Nodes of the reference element, in its local coordinates; middle nodes as VTK numbers them.
 inline std::vector<Vec3> reference_element(ElementKind kind) {
   switch (kind) {
+    case ElementKind::hex20:
+      return {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1},  {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1},
+              {-1, 1, 1},   {0, -1, -1}, {1, 0, -1},  {0, 1, -1},  {-1, 0, -1}, {0, -1, 1}, {1, 0, 1},
+              {0, 1, 1},    {-1, 0, 1},  {-1, -1, 0}, {1, -1, 0},  {1, 1, 0},   {-1, 1, 0}};
+    case ElementKind::tet10:
+      return {{0, 0, 0},     {1, 0, 0},   {0, 1, 0},   {0, 0, 1},     {0.5, 0, 0},
+              {0.5, 0.5, 0}, {0, 0.5, 0}, {0, 0, 0.5}, {0.5, 0, 0.5}, {0, 0.5, 0.5}};
     case ElementKind::tet4:
       return {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     case ElementKind::wedge6:

@@ -49,7 +49,7 @@ TEST(Topology, TablesAreInOrderOfKinds) {
 
 TEST(Topology, SidesOfSolidsCloseAndPointOut) {
   Random random(1);
-  for (const ElementKind kind : solid_kinds)
+  for (const ElementKind kind : linear_solid_kinds)
     for (int trial = 0; trial < 50; ++trial) {
       const std::vector<Vec3> x = distorted_element(kind, 0.15, random);
       const Topology& t = topology(kind);
@@ -100,7 +100,9 @@ TEST(Topology, ExodusNamesNeedTheNumberOfNodes) {
   EXPECT_EQ(kind_of_exodus("SHELL", 3), ElementKind::tri3);
   EXPECT_EQ(kind_of_exodus("wedge", 6), ElementKind::wedge6);
   EXPECT_EQ(kind_of_exodus("PYRAMID5", 5), ElementKind::pyramid5);
-  EXPECT_EQ(kind_of_exodus("HEX", 20), std::nullopt);
+  EXPECT_EQ(kind_of_exodus("HEX", 20), ElementKind::hex20);
+  EXPECT_EQ(kind_of_exodus("tetra10", 10), ElementKind::tet10);
+  EXPECT_EQ(kind_of_exodus("HEX", 27), std::nullopt);
   EXPECT_EQ(kind_of_exodus("SPHERE", 1), std::nullopt);
   EXPECT_EQ(kind_of_exodus("", 8), std::nullopt);
   EXPECT_EQ(kind_of_gmsh(15), std::nullopt);

@@ -88,7 +88,7 @@ TEST_F(ForeignExodus, KnowsTheSpellingsOfTypes) {
 
 TEST_F(ForeignExodus, OfHigherOrderOrUnknownKindIsRefusedByName) {
   const std::vector<Block> refused{{"TETRA", 8, first(8)},
-                                   {"HEX20", 20, std::vector<int>(20, 1)},
+                                   {"HEX27", 27, std::vector<int>(27, 1)},
                                    {"SPHERE", 1, {1}},
                                    {"BAR2", 2, {1, 2}},
                                    {"NSIDED", 4, first(4)}};

@@ -103,7 +103,18 @@ TEST_F(Exodus, SidesAreThoseOfTheLibrary) {
           1);
     // The same list but for where it starts: the same nodes, and the same sense.
     std::vector<int> theirs = lists[i];
-    std::rotate(theirs.begin(), std::find(theirs.begin(), theirs.end(), ours[0]), theirs.end());
+    const auto first = std::find(theirs.begin(), theirs.end(), ours[0]);
+    const auto corners_end = theirs.begin() + shape.side_nodes[s];
+    if (!middle_nodes(block.kind).empty()) {  // theirs: the corners, then the middle nodes between each and the next
+      const std::vector<int> corners = ours;
+      for (std::size_t n = 0; n < corners.size(); ++n) {
+        const int middle = middle_node(block.kind, shape.side[s][n], shape.side[s][(n + 1) % corners.size()]);
+        ours.push_back(static_cast<int>(block.connectivity[static_cast<std::size_t>(middle)]) + 1);
+      }
+      ASSERT_EQ(theirs.size(), ours.size());
+      std::rotate(corners_end, corners_end + (first - theirs.begin()), theirs.end());
+    }
+    std::rotate(theirs.begin(), first, corners_end);
     EXPECT_EQ(theirs, ours) << shape.name << " side " << s + 1;
   }
 }
