@@ -179,6 +179,24 @@ class CurvedFace {
       if (!moved) moved = attempt(s, at, steepest(at));
       if (!moved) break;
     }
+    return polished(s);
+  }
+  /// Falls of f end where they are round-off of f, which leaves the square root of round-off in s; the last steps of
+  /// Newton go by the gradient alone.
+  Vec2 polished(Vec2 s) const {
+    for (int i = 0; i < 4; ++i) {
+      const Slope at = slope(s);
+      Vec2 step = newton_step(at);
+      int held = 0;
+      for (const Bound& bound : bounds())
+        if (bound.room(s) <= 1e-14 && dot(bound.n, at.gradient) > 0) {
+          step = sliding_step(at, bound.n);
+          ++held;
+        }
+      const double length = std::max(std::abs(step[0]), std::abs(step[1]));
+      if (held > 1 || !(length < 1e-6) || length < 1e-16) break;
+      s = tidied({s[0] + step[0], s[1] + step[1]});
+    }
     return s;
   }
   bool attempt(Vec2& s, const Slope& at, const Vec2& step) const {

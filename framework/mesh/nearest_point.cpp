@@ -105,6 +105,21 @@ class Patch {
       s = next;
       if (moved < 1e-14) break;
     }
+    return polished(s);
+  }
+
+  /// Falls of f end where they are round-off of f, which leaves the square root of round-off in s; the last steps of
+  /// Newton go by the gradient alone.
+  Vec2 polished(Vec2 s) const {
+    for (int i = 0; i < 4; ++i) {
+      const Vec3 r = position(s), ru = x_ + s[1] * xy_, rv = y_ + s[0] * xy_;
+      const Vec2 g{dot(r, ru), dot(r, rv)};
+      const auto held = [&](std::size_t k) { return (s[k] <= -1 && g[k] >= 0) || (s[k] >= 1 && g[k] <= 0); };
+      const Vec2 step = newton_step(g, r, ru, rv, held(0), held(1));
+      const double length = std::max(std::abs(step[0]), std::abs(step[1]));
+      if (!(length < 1e-6) || length < 1e-16) break;
+      for (std::size_t k = 0; k < 2; ++k) s[k] = std::clamp(s[k] - step[k], -1.0, 1.0);
+    }
     return s;
   }
 

@@ -121,5 +121,21 @@ TEST(MechanicsScene, WrongNamesGetASuggestion) {
       std::string::npos);
 }
 
+TEST(MechanicsScene, RefusesElementsOfSecondOrderByName) {
+  for (const ElementKind kind : {ElementKind::hex20, ElementKind::tet10}) {
+    MeshSummary mesh = summary();
+    mesh.blocks[0].kind = kind;
+    scene::Diagnostics diagnostics;
+    const scene::Value value = parse_scene("mesh: m\nmaterial: steel\n", "s.yaml", {}, mechanics_schema(), diagnostics);
+    ASSERT_FALSE(diagnostics.any());
+    read_mechanics(value, mesh, materials(), diagnostics);
+    ASSERT_TRUE(diagnostics.any());
+    const std::string error = diagnostics.errors().front();
+    EXPECT_NE(error.find("'" + mesh.blocks[0].name + "'"), std::string::npos) << error;
+    EXPECT_NE(error.find(topology(kind).name), std::string::npos) << error;
+    EXPECT_NE(error.find("mesh the body with hex8"), std::string::npos) << error;
+  }
+}
+
 }  // namespace
 }  // namespace tenon::testing

@@ -12,10 +12,10 @@ struct Read {
   scene::Diagnostics diagnostics;
 };
 
-Read read(const std::string& text) {
+Read read(const std::string& text, ElementKind foot = ElementKind::hex8) {
   MeshSummary mesh;
   mesh.source = "bar.msh";
-  mesh.blocks = {{"bar", 1, 10, ElementKind::tet4}, {"foot", 2, 5, ElementKind::hex8}};
+  mesh.blocks = {{"bar", 1, 10, ElementKind::tet4}, {"foot", 2, 5, foot}};
   mesh.node_sets = {{"top", 1, 3}, {"bottom", 2, 3}};
   mesh.side_sets = {{"skin", 1, 9}, {"nothing", 2, 0}};
   MaterialDescription copper{"copper", 8960, {}, {}, ThermalProperties{386, 383, 300, 0.9}, {}};
@@ -149,6 +149,18 @@ TEST(ThermalScene, RefusesWhatMakesNoSense) {
   expect_refused("material: copper\ntime_step: {scale: 1.5}\n", "scale");
   expect_refused("material: copper\nconvection: [{side_set: skin, coefficient: -1, ambient: 1}]\n", "coefficient");
   expect_refused("material: copper\ninitial_temperature: 5 m\n", "initial_temperature");
+}
+
+TEST(ThermalScene, RefusesElementsOfSecondOrderByName) {
+  for (const ElementKind kind : {ElementKind::hex20, ElementKind::tet10, ElementKind::quad4}) {
+    const Read r = read("mesh: fine\nmaterial: copper\n", kind);
+    ASSERT_TRUE(r.diagnostics.any());
+    const std::string error = r.diagnostics.errors().front();
+    EXPECT_NE(error.find("'foot'"), std::string::npos) << error;
+    EXPECT_NE(error.find(topology(kind).name), std::string::npos) << error;
+    if (kind == ElementKind::quad4) continue;
+    EXPECT_NE(error.find("mesh the body with hex8"), std::string::npos) << error;
+  }
 }
 
 }  // namespace
