@@ -122,7 +122,7 @@ TEST(NearestSurfacePoint, FollowsTheNormalOfAFlatElement) {
         const Vec3 point = foot + Vec3{0, 0, side};
         const NearestPoint on_quad = nearest_point(ElementKind::quad4, quad, point);
         EXPECT_LT(norm(on_quad.xi - Vec3{foot[0] - 1, foot[1] - 1, 0}), 1e-14);
-        EXPECT_NEAR(on_quad.distance, far, 1e-15 * far);
+        EXPECT_NEAR(on_quad.distance, far, 1e-17 + 1e-15 * far);
         EXPECT_LT(norm(nearest_point(ElementKind::tri3, tri, point).xi - Vec3{foot[0] / 2, foot[1] / 2, 0}), 1e-14);
       }
     }
