@@ -16,37 +16,8 @@ constexpr double on_surface = 1e-12;
 /// Weights below this are round-off.
 constexpr double negligible = 1e-15;
 
-/// Local coordinates of the corners.
-Vec3 reference_corner(ElementKind kind, std::size_t a) {
-  static constexpr Vec3 hex[8] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
-                                  {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
-  static constexpr Vec3 tet[4] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  static constexpr Vec3 wedge[6] = {{0, 0, -1}, {1, 0, -1}, {0, 1, -1}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}};
-  static constexpr Vec3 pyramid[5] = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {0, 0, 1}};
-  switch (kind) {
-    case ElementKind::tet4:
-    case ElementKind::tet10:
-    case ElementKind::tri3:
-      return tet[a];
-    case ElementKind::wedge6:
-      return wedge[a];
-    case ElementKind::pyramid5:
-      return pyramid[a];
-    case ElementKind::quad4:
-      return {hex[a][0], hex[a][1], 0};
-    default:
-      return hex[a];
-  }
-}
-
-std::size_t corner_count(ElementKind kind) {
-  if (kind == ElementKind::hex20) return 8;
-  if (kind == ElementKind::tet10) return 4;
-  return static_cast<std::size_t>(topology(kind).nodes);
-}
-
 bool second_order(ElementKind kind) {
-  return kind == ElementKind::hex20 || kind == ElementKind::tet10;
+  return !middle_nodes(kind).empty();
 }
 
 }  // namespace
@@ -113,9 +84,11 @@ Placement in_element(const ElementSet& elements, LocalIndex e, const Vec3& point
   place.kind = elements.kind(e);
   place.xi = clamped(place.kind, xi);
   const LocalIndex* const nodes = elements.nodes_of(e);
-  for (std::size_t a = 0; a < corner_count(place.kind); ++a)
+  const std::span<const Vec3> corners =
+      local_nodes(place.kind).first(static_cast<std::size_t>(corner_count(place.kind)));
+  for (std::size_t a = 0; a < corners.size(); ++a)
     if (elements.x[static_cast<std::size_t>(nodes[a])] == point) {
-      place.xi = reference_corner(place.kind, a);
+      place.xi = corners[a];
       break;
     }
   return place;
