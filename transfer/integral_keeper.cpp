@@ -58,19 +58,69 @@ void IntegralKeeper::keep(std::span<const double> source, std::span<double> targ
 
 void IntegralKeeper::clip(std::span<double> target, int components, std::span<const double> low,
                           std::span<const double> high, ProjectionOutcome& outcome) const {
-  constexpr double round_off = 1e-12;  // of the bounds: not worth telling
+  constexpr double negligible = 1e-6;  // of the greatest value: not worth telling
   const auto width = static_cast<std::size_t>(components);
+  double greatest = 0;
+  for (const double v : high)
+    if (std::isfinite(v)) greatest = std::max(greatest, std::abs(v));
+  const double margin = negligible * comm_.max(greatest);
   std::int64_t clipped = 0;
+  taken_.assign(rows_.size() * width, 0.0);
   for (std::size_t k = 0; k < rows_.size(); ++k)
     for (std::size_t c = 0; c < width; ++c) {
       double& u = target[static_cast<std::size_t>(rows_[k].item) * width + c];
-      const double least = low[k * width + c], greatest = high[k * width + c];
-      if (!(least <= greatest)) continue;
-      const double margin = round_off * std::max(std::abs(least), std::abs(greatest));
-      clipped += rows_[k].owned && (u < least - margin || u > greatest + margin);
-      u = std::clamp(u, least, greatest);
+      const double least = low[k * width + c], most = high[k * width + c];
+      if (!(least <= most)) continue;
+      clipped += rows_[k].owned && (u < least - margin || u > most + margin);
+      const double kept = std::clamp(u, least, most);
+      taken_[k * width + c] = rows_[k].volume * (u - kept);
+      u = kept;
     }
   outcome.clipped = comm_.sum(clipped);
+}
+
+// Every node tells how much room it has, then, how much of its neighbours' room it asks for: room and part are pairs
+// (above, below) for each component. A node that is asked for more than it has gives all.
+void IntegralKeeper::give_to_neighbours(const SparseRows<float>& neighbours, const ExchangePlan& halo,
+                                        std::span<double> target, int components, std::span<const double> low,
+                                        std::span<const double> high) const {
+  const auto width = static_cast<std::size_t>(components);
+  room_.resize(2 * target.size()), part_.assign(2 * target.size(), 0.0);
+  const auto at = [&](std::size_t row, std::size_t c) { return static_cast<std::size_t>(rows_[row].item) * width + c; };
+  const auto share = [&](std::vector<double>& values) {
+    if (comm_.size() > 1) halo.forward(std::span<const double>(values), std::span<double>(values), 2 * components);
+  };
+  const auto sum_around = [&](const std::vector<double>& values, std::size_t row, std::size_t entry) {
+    double sum = 0;
+    for (std::size_t k = neighbours.first(row); k < neighbours.last(row); ++k)
+      sum += values[2 * static_cast<std::size_t>(neighbours.column[k]) * width + entry];
+    return sum;
+  };
+  for (std::size_t k = 0; k < rows_.size(); ++k)
+    for (std::size_t c = 0; c < width; ++c) {
+      const double u = target[at(k, c)];
+      room_[2 * at(k, c)] = rows_[k].volume * std::max(0.0, high[k * width + c] - u);
+      room_[2 * at(k, c) + 1] = rows_[k].volume * std::max(0.0, u - low[k * width + c]);
+    }
+  share(room_);
+  for (std::size_t k = 0; k < rows_.size(); ++k)
+    for (std::size_t c = 0; c < width; ++c) {
+      const double taken = taken_[k * width + c];
+      if (taken == 0) continue;
+      const std::size_t below = taken < 0;
+      const double room = sum_around(room_, k, 2 * c + below);
+      if (room > 0) part_[2 * at(k, c) + below] = std::min(1.0, std::abs(taken) / room);
+    }
+  share(part_);
+  for (std::size_t k = 0; k < rows_.size(); ++k)
+    for (std::size_t c = 0; c < width; ++c) {
+      const double above = std::min(1.0, sum_around(part_, k, 2 * c));
+      const double below = std::min(1.0, sum_around(part_, k, 2 * c + 1));
+      double& u = target[at(k, c)];
+      const double up = above > 0 ? above * (high[k * width + c] - u) : 0.0;
+      const double down = below > 0 ? below * (u - low[k * width + c]) : 0.0;
+      if (above > 0 || below > 0) u = std::clamp(u + (up - down), low[k * width + c], high[k * width + c]);
+    }
 }
 
 void IntegralKeeper::keep_within(std::span<const double> source, std::span<double> target, int components,
@@ -104,14 +154,15 @@ void IntegralKeeper::keep_within(std::span<const double> source, std::span<doubl
     for (std::size_t k = 0; k < rows_.size(); ++k) {
       double& u = target[static_cast<std::size_t>(rows_[k].item) * width + c];
       const double to = bound[k * width + c];
-      if (std::isfinite(to)) u += part * (to - u);
+      if (std::isfinite(to)) u = part < 1 ? u + part * (to - u) : to;
     }
   }
 }
 
 std::int64_t IntegralKeeper::memory() const {
   const auto bytes = [](const auto& v) { return static_cast<std::int64_t>(v.capacity() * sizeof(v[0])); };
-  return bytes(source_owned_) + bytes(source_volumes_) + bytes(rows_) + bytes(local_) + bytes(global_);
+  return bytes(source_owned_) + bytes(source_volumes_) + bytes(rows_) + bytes(local_) + bytes(global_) + bytes(taken_) +
+         bytes(room_) + bytes(part_);
 }
 
 }  // namespace tenon::transfer

@@ -8,6 +8,7 @@
 #include "framework/comm/exact_sum.hpp"
 #include "transfer/projection.hpp"
 #include "transfer/rows.hpp"
+#include "transfer/sparse_rows.hpp"
 
 namespace tenon::transfer {
 
@@ -23,6 +24,10 @@ class IntegralKeeper {
   /// Collective. Brings values within their bounds.
   void clip(std::span<double> target, int components, std::span<const double> low, std::span<const double> high,
             ProjectionOutcome& outcome) const;
+  /// Collective, for a target on nodes. Gives what the last `clip` took from a node to its neighbours, the columns of
+  /// its row, in proportion to the room that they have within their bounds; as much as they can take.
+  void give_to_neighbours(const SparseRows<float>& neighbours, const ExchangePlan& halo, std::span<double> target,
+                          int components, std::span<const double> low, std::span<const double> high) const;
   /// Collective. Adds what the integral lacks in proportion to the room that values have within their bounds.
   void keep_within(std::span<const double> source, std::span<double> target, int components,
                    std::span<const double> low, std::span<const double> high, ProjectionOutcome& outcome) const;
@@ -46,6 +51,8 @@ class IntegralKeeper {
   double volume_ = 0;  ///< of the whole target
   mutable std::vector<ExactSum> local_;
   mutable std::vector<double> global_;
+  mutable std::vector<double> taken_;        ///< by the last clip, m^3; rows x components
+  mutable std::vector<double> room_, part_;  ///< above and below, m^3, and of it to be taken up; by local node
 };
 
 }  // namespace tenon::transfer

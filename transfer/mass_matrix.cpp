@@ -12,8 +12,10 @@ namespace tenon::transfer {
 
 namespace {
 
-/// By which the error of the worst mode is reduced.
-constexpr double reduction = 1e-3;
+/// By which the error of the worst mode is reduced: 14 iterations for hexahedra, 6 for tetrahedra. What is solved for
+/// are corrections of second order, so a hundredth of them is beyond notice: of a wave that has gone to and fro a
+/// thousand times, 1e-5 gave the same to three digits.
+constexpr double reduction = 1e-2;
 
 /// Least eigenvalue of D^-1 M of one element, D the sums of rows of M; a bound for any mesh of such elements [Wat87].
 /// (Where an element is so distorted that it has a smaller one, Chebyshev polynomials still lie between 0 and 1 there:
@@ -87,7 +89,7 @@ void MassMatrix::fill(const Side& side) {
   std::vector<LocalIndex> row_of(static_cast<std::size_t>(side.mesh.nodes()), no_index);
   for (std::size_t k = 0; k < side.mesh.owned_nodes.size(); ++k)
     row_of[static_cast<std::size_t>(side.mesh.owned_nodes[k])] = static_cast<LocalIndex>(k);
-  rows_.value.assign(rows_.column.size(), 0.0);
+  std::vector<double> value(rows_.column.size(), 0.0);
   for (const ElementBlock& block : side.mesh.blocks) {
     const std::vector<TabulatedPoint> points = quadrature_points(block.kind);
     for (LocalIndex e = 0; e < block.size(); ++e) {
@@ -106,14 +108,14 @@ void MassMatrix::fill(const Side& side) {
             rows_.column.begin() + static_cast<std::ptrdiff_t>(rows_.first(static_cast<std::size_t>(row)));
         const auto last = rows_.column.begin() + static_cast<std::ptrdiff_t>(rows_.last(static_cast<std::size_t>(row)));
         for (std::size_t b = 0; b < nodes.size(); ++b)
-          rows_.value[static_cast<std::size_t>(std::lower_bound(first, last, nodes[b]) - rows_.column.begin())] +=
-              mass[a][b];
+          value[static_cast<std::size_t>(std::lower_bound(first, last, nodes[b]) - rows_.column.begin())] += mass[a][b];
       }
     }
   }
+  rows_.value.assign(value.begin(), value.end());
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     double sum = 0;
-    for (std::size_t k = rows_.first(i); k < rows_.last(i); ++k) sum += rows_.value[k];
+    for (std::size_t k = rows_.first(i); k < rows_.last(i); ++k) sum += double{rows_.value[k]};
     lumped_.push_back(sum);
   }
 }

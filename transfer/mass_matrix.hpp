@@ -25,7 +25,8 @@ struct NodeElements {
 };
 NodeElements node_elements(const Mesh& mesh);
 
-/// M_ij = integral of N_i N_j over the mesh, m^3, in rows of the owned nodes.
+/// M_ij = integral of N_i N_j over the mesh, m^3, in rows of the owned nodes; kept in single precision, as only an
+/// approximate inverse is asked of it.
 class MassMatrix {
  public:
   MassMatrix() = default;
@@ -34,12 +35,12 @@ class MassMatrix {
 
   /// Collective. d = M^-1 r, for the owned nodes (in order of `owned`, as r); d has room for all local nodes x
   /// components, in order of local index, and its ghosts are left alone. By a fixed number of Chebyshev iterations with
-  /// the row sums D as preconditioner. The error in the worst mode is a thousandth; smooth modes are far better, since
+  /// the row sums D as preconditioner. The error in the worst mode is a hundredth; smooth modes are far better, since
   /// the last step is d += D^-1 (r - M d): as the sums over the columns of M are D, the sum of D d is that of r to
   /// round-off. No global reduction; no allocation after the first call with that many components.
   void solve(std::span<const double> r, std::span<double> d, int components) const;
 
-  const SparseRows& rows() const { return rows_; }
+  const SparseRows<float>& rows() const { return rows_; }
   int iterations() const { return iterations_; }
   std::int64_t memory() const;
 
@@ -47,7 +48,7 @@ class MassMatrix {
   void fill(const Side& side);
 
   const Mesh* mesh_ = nullptr;
-  SparseRows rows_;
+  SparseRows<float> rows_;
   std::vector<double> lumped_;  ///< sums of rows
   double least_ = 1;            ///< lower bound of the spectrum of D^-1 M; the upper one is 1
   int iterations_ = 0;

@@ -40,7 +40,7 @@ void check_target(const Side& target, const std::string& name) {
 }
 
 /// Widens the bounds of each row by the values that it draws on.
-void widen(const SparseRows& rows, std::span<const double> values, std::size_t width, std::span<double> low,
+void widen(const SparseRows<double>& rows, std::span<const double> values, std::size_t width, std::span<double> low,
            std::span<double> high) {
   for (std::size_t i = 0; i < rows.size(); ++i)
     for (std::size_t k = rows.first(i); k < rows.last(i); ++k)
@@ -111,6 +111,8 @@ void Projection::apply(std::span<const double> source, std::span<double> target,
   if (impl.options.bounded) {
     impl.find_bounds(width);
     impl.keeper.clip(target, components, impl.low, impl.high, impl.outcome);
+    if (impl.to_nodes)
+      impl.keeper.give_to_neighbours(impl.mass.rows(), impl.target->node_halo, target, components, impl.low, impl.high);
     if (impl.options.keep_integral)
       impl.keeper.keep_within(source, target, components, impl.low, impl.high, impl.outcome);
   } else if (impl.options.keep_integral) {

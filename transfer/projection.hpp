@@ -19,13 +19,13 @@ struct ProjectionOptions {
   /// where one mesh has less than the other.
   bool keep_integral = true;
   /// Quadrature points along an edge of a target element.
-  double points_per_edge = 2.4;
+  double points_per_edge = 2.5;
 };
 
 /// What an application did, the same on every rank; the worst of all components.
 struct ProjectionOutcome {
   double spread = 0;         ///< integral that was spread to make up for the rest, over the integral of |f|
-  std::int64_t clipped = 0;  ///< values that were brought back within their bounds
+  std::int64_t clipped = 0;  ///< values that were brought back within their bounds by more than 1e-6 of the greatest
   double unplaced = 0;       ///< integral that no value had room for within its bounds, over the integral of |f|
 };
 

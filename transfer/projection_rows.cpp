@@ -9,7 +9,7 @@ namespace tenon::transfer {
 
 namespace {
 
-/// The source items that values come from, numbered in order of global id.
+/// The source items that values come from, numbered.
 class Columns {
  public:
   Columns(const Side& source, const RowMap& interpolation, const TargetSamples& samples, const std::string& name)
@@ -17,10 +17,6 @@ class Columns {
     find_elements(source, samples, name);
     find_owners(source, interpolation);
     number(source, name);
-    for (LocalIndex& slot : from_interpolation_) slot = column_[static_cast<std::size_t>(slot)];
-    for (ElementColumns& element : elements_)
-      for (std::size_t a = 0; a < element.count; ++a)
-        element.column[a] = column_[static_cast<std::size_t>(element.column[a])];
   }
 
   struct ElementColumns {
@@ -32,7 +28,7 @@ class Columns {
   }
   LocalIndex of_slot(std::size_t slot) const { return from_interpolation_[slot]; }
   bool by_node() const { return by_node_; }
-  std::size_t size() const { return column_.size(); }
+  std::size_t size() const { return size_; }
   ExchangePlan gather;
 
  private:
@@ -72,25 +68,10 @@ class Columns {
                                           : table.slot(element_table_.owners()[k], element_table_.indices()[k]);
     }
     nodes_.reset();
-    order(source, table, name);
-  }
-
-  /// From slots, which ascend by owner, to columns, which ascend by id.
-  void order(const Side& source, const SlotTable& table, const std::string& name) {
-    const std::size_t count = table.owners().size();
-    column_.resize(count);
-    std::iota(column_.begin(), column_.end(), LocalIndex{0});
-    const auto plan = [&](const std::string& suffix) {
-      return ExchangePlan::from_owners(source.mesh.comm, table.owners(), table.indices(), column_, name + suffix);
-    };
-    std::vector<GlobalId> ids(count);
-    plan(".ids").forward(source.items.ids, std::span<GlobalId>(ids));
-    std::vector<LocalIndex> by_id(column_);
-    std::sort(by_id.begin(), by_id.end(), [&](LocalIndex a, LocalIndex b) {
-      return ids[static_cast<std::size_t>(a)] < ids[static_cast<std::size_t>(b)];
-    });
-    for (std::size_t k = 0; k < count; ++k) column_[static_cast<std::size_t>(by_id[k])] = static_cast<LocalIndex>(k);
-    gather = plan(".gather");
+    size_ = table.owners().size();
+    std::vector<LocalIndex> into(size_);
+    std::iota(into.begin(), into.end(), LocalIndex{0});
+    gather = ExchangePlan::from_owners(source.mesh.comm, table.owners(), table.indices(), into, name + ".gather");
   }
 
   bool by_node_;
@@ -98,35 +79,35 @@ class Columns {
   std::unique_ptr<PlacedNodes> nodes_;
   std::vector<ElementColumns> elements_;
   std::vector<int> owner_;
-  std::vector<LocalIndex> index_, from_interpolation_, column_;
+  std::vector<LocalIndex> index_, from_interpolation_;
+  std::size_t size_ = 0;
 };
 
 /// One row at a time, over all columns.
 class Accumulator {
  public:
-  explicit Accumulator(std::size_t columns) : value_(columns, 0.0), marked_(columns, 0) {}
+  explicit Accumulator(std::size_t columns) : place_(columns, no_index) {}
   void add(LocalIndex column, double value) {
-    const auto c = static_cast<std::size_t>(column);
-    if (!marked_[c]) marked_[c] = 1, touched_.push_back(column);
-    value_[c] += value;
+    LocalIndex& place = place_[static_cast<std::size_t>(column)];
+    if (place == no_index) {
+      place = static_cast<LocalIndex>(columns_.size());
+      columns_.push_back(column), values_.push_back(value);
+    } else {
+      values_[static_cast<std::size_t>(place)] += value;
+    }
   }
   /// Appends the row and begins the next one.
-  void close(SparseRows& rows, double scale) {
-    std::sort(touched_.begin(), touched_.end());
-    for (const LocalIndex column : touched_) {
-      const auto c = static_cast<std::size_t>(column);
-      rows.column.push_back(column);
-      rows.value.push_back(scale * value_[c]);
-      value_[c] = 0, marked_[c] = 0;
-    }
+  void close(SparseRows<double>& rows, double scale) {
+    for (const LocalIndex column : columns_) place_[static_cast<std::size_t>(column)] = no_index;
+    rows.column.insert(rows.column.end(), columns_.begin(), columns_.end());
+    for (const double value : values_) rows.value.push_back(scale * value);
     rows.begin.push_back(static_cast<std::int64_t>(rows.column.size()));
-    touched_.clear();
+    columns_.clear(), values_.clear();
   }
 
  private:
-  std::vector<double> value_;
-  std::vector<char> marked_;
-  std::vector<LocalIndex> touched_;
+  std::vector<LocalIndex> place_, columns_;
+  std::vector<double> values_;
 };
 
 class Assembler {
@@ -223,21 +204,40 @@ class Assembler {
   void add_samples(LocalIndex element, Weight&& weight) {
     const std::span<const Sample> samples = samples_.in(element);
     for (std::size_t q = 0; q < samples.size();) {
-      const Sample& first = samples[q];
-      const Columns::ElementColumns& columns = columns_.of(first);
-      const std::vector<TabulatedPoint>& table = tables_.of(static_cast<ElementKind>(first.kind), first.cells);
-      std::array<double, max_nodes> sum{};
-      for (; q < samples.size() && samples[q].source_element == first.source_element; ++q) {
-        const double w = weight(samples[q]);
-        if (columns_.by_node()) {
-          const std::array<double, max_nodes>& value = table[samples[q].point].value;
-          for (std::size_t a = 0; a < columns.count; ++a) sum[a] += w * value[a];
-        } else {
-          sum[0] += w;
-        }
-      }
-      for (std::size_t a = 0; a < columns.count; ++a) row_.add(columns.column[a], sum[a]);
+      std::size_t end = q + 1;
+      while (end < samples.size() && samples[end].source_element == samples[q].source_element) ++end;
+      add_group(samples.subspan(q, end - q), weight);
+      q = end;
     }
+  }
+
+  /// The same over the samples in one element of the target that are also in one of the source.
+  template <typename Weight>
+  void add_group(std::span<const Sample> samples, Weight&& weight) {
+    const Columns::ElementColumns& columns = columns_.of(samples.front());
+    if (!columns_.by_node()) {
+      double sum = 0;
+      for (const Sample& s : samples) sum += weight(s);
+      row_.add(columns.column[0], sum);
+    } else if (columns.count <= max_linear_nodes) {
+      add_nodes<max_linear_nodes>(samples, columns, weight);
+    } else {
+      add_nodes<max_nodes>(samples, columns, weight);
+    }
+  }
+
+  /// `width`: known to the compiler, at least as many as there are nodes.
+  template <std::size_t width, typename Weight>
+  void add_nodes(std::span<const Sample> samples, const Columns::ElementColumns& columns, Weight&& weight) {
+    const Sample& first = samples.front();
+    const std::span<const double> values = tables_.values(static_cast<ElementKind>(first.kind), first.cells);
+    std::array<double, width> sum{};
+    for (const Sample& s : samples) {
+      const double w = weight(s);
+      const double* const value = values.data() + std::size_t{s.point} * width;
+      for (std::size_t a = 0; a < width; ++a) sum[a] += w * value[a];
+    }
+    for (std::size_t a = 0; a < columns.count; ++a) row_.add(columns.column[a], sum[a]);
   }
 
   const Side& target_;

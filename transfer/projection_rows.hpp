@@ -10,15 +10,16 @@
 
 namespace tenon::transfer {
 
-/// Columns are places in the array that `gather` fills, ascending by the global id of the source item.
+/// Columns are places in the array that `gather` fills. The terms of a row stand in the order in which the assembly
+/// comes upon them, by elements, samples and nodes: the same on any ranks.
 struct ProjectionRows {
   ExchangePlan gather;
   std::size_t columns = 0;
   /// P: values at the target's owned nodes by interpolation. For a target on elements: the whole projection, with rows
   /// for all local elements.
-  SparseRows values;
+  SparseRows<double> values;
   /// R = B - C P, rows of the owned nodes, m^3: of sum_q w_q N_i (f - P f)(x_q). Empty for a target on elements.
-  SparseRows residual;
+  SparseRows<double> residual;
 };
 
 /// Collective. `interpolation`: at all local nodes of the target. `mass`: of a target on nodes. `volumes`: of a target

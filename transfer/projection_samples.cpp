@@ -10,6 +10,7 @@ namespace tenon::transfer {
 namespace {
 
 constexpr int fewest = 2, most = 6;  // sub-cells along an edge
+constexpr std::size_t least_batch = 1 << 18;
 
 double edge_of(ElementKind kind, double measure) {
   return topology(kind).dimension == 3 ? std::cbrt(measure) : std::sqrt(measure);
@@ -41,66 +42,81 @@ Box box_of(const Communicator& comm, const Containers& containers) {
   return box;
 }
 
-/// Points of the owned source elements that lie in the box, with what is known of them here.
-struct Candidates {
+/// Makes the points of the owned source elements that lie in the target's box, some elements at a time: what search
+/// needs for a point is several times what is kept of it.
+class Candidates {
+ public:
+  Candidates(const Side& source, const Box& box, double spacing, SampleTables& tables)
+      : source_(source), box_(box), spacing_(spacing), tables_(tables) {}
+
   std::vector<Vec3> points;
   std::vector<Sample> samples;
-  GlobalId sought = 0;
+  std::int64_t sought = 0;
+
+  /// At least `count` points, unless there are no more.
+  void next(std::size_t count) {
+    points.clear(), samples.clear();
+    for (; block_ < source_.mesh.blocks.size(); ++block_, element_ = 0) {
+      const ElementBlock& block = source_.mesh.blocks[block_];
+      for (; element_ < block.size(); ++element_, ++item_) {
+        if (points.size() >= count) return;
+        if (block.owners[static_cast<std::size_t>(element_)] == source_.mesh.comm.rank()) add(block);
+      }
+    }
+  }
+  bool done() const { return block_ == source_.mesh.blocks.size(); }
+
+ private:
+  void add(const ElementBlock& block) {
+    const Corners corners = corners_of(block, element_, source_.coordinates);
+    const auto nodes = block.nodes(element_).size();
+    const double volume = element_measure(block.kind, std::span(corners).first(nodes));
+    if (!(volume > 0)) return;
+    const double wanted = spacing_ > 0 ? std::floor(edge_of(block.kind, volume) / spacing_ + 0.51) : 0.0;
+    const int cells = static_cast<int>(std::clamp(wanted, double{fewest}, double{most}));
+    const std::vector<TabulatedPoint>& table = tables_.of(block.kind, cells);
+    sought += static_cast<std::int64_t>(table.size());
+    Sample sample;
+    sample.source_element = block.ids[static_cast<std::size_t>(element_)];
+    sample.source_item = item_;
+    sample.source_owner = source_.mesh.comm.rank();
+    sample.kind = static_cast<std::uint8_t>(block.kind);
+    sample.cells = static_cast<std::uint8_t>(cells);
+    for (std::size_t q = 0; q < table.size(); ++q) {
+      const Vec3 x = position(table[q], static_cast<int>(nodes), corners);
+      if (!box_.contains(x)) continue;
+      sample.weight = table[q].weight * measure(table[q], block.kind, corners);
+      if (!(sample.weight > 0)) continue;
+      sample.point = static_cast<std::uint16_t>(q);
+      points.push_back(x);
+      samples.push_back(sample);
+    }
+  }
+
+  const Side& source_;
+  Box box_;
+  double spacing_;
+  SampleTables& tables_;
+  std::size_t block_ = 0;
+  LocalIndex element_ = 0, item_ = 0;
 };
 
-Candidates candidates_in(const Side& source, const Box& box, double spacing, SampleTables& tables) {
-  Candidates result;
-  const int rank = source.mesh.comm.rank();
-  for_each_element(source.mesh, [&](LocalIndex item, const ElementBlock& block, LocalIndex e) {
-    if (block.owners[static_cast<std::size_t>(e)] != rank) return;
-    const Corners corners = corners_of(block, e, source.coordinates);
-    const int nodes = static_cast<int>(block.nodes(e).size());
-    const double volume = element_measure(block.kind, std::span(corners).first(block.nodes(e).size()));
-    if (!(volume > 0)) return;
-    // The 0.01 keeps equal meshes equal in spite of round-off.
-    const double wanted = spacing > 0 ? std::ceil(edge_of(block.kind, volume) / spacing - 0.01) : 0.0;
-    const int cells = static_cast<int>(std::clamp(wanted, double{fewest}, double{most}));
-    const std::vector<TabulatedPoint>& table = tables.of(block.kind, cells);
-    for (std::size_t q = 0; q < table.size(); ++q) {
-      const double weight = table[q].weight * std::max(0.0, measure(table[q], block.kind, corners));
-      const Vec3 x = position(table[q], nodes, corners);
-      ++result.sought;
-      if (!(weight > 0) || !box.contains(x)) continue;
-      Sample sample;
-      sample.weight = weight;
-      sample.source_element = block.ids[static_cast<std::size_t>(e)];
-      sample.source_item = item;
-      sample.source_owner = rank;
-      sample.point = static_cast<std::uint16_t>(q);
-      sample.kind = static_cast<std::uint8_t>(block.kind);
-      sample.cells = static_cast<std::uint8_t>(cells);
-      result.points.push_back(x);
-      result.samples.push_back(sample);
-    }
-  });
-  return result;
-}
-
-/// Completes the samples that lie in a target element and drops the others; the owner of each element.
-std::vector<int> take_places(std::vector<Sample>& samples, std::span<const Placement> places) {
-  std::vector<int> owners;
-  owners.reserve(samples.size());
-  std::size_t kept = 0;
+/// Completes the samples that lie in a target element and appends them, with the owner of each element.
+void take_places(std::span<const Sample> samples, std::span<const Placement> places, std::vector<Sample>& kept,
+                 std::vector<int>& owners) {
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const Placement& place = places[i];
     if (place.is_outside() || !place.found()) continue;
-    Sample& sample = samples[kept++];
-    sample = samples[i];
+    kept.push_back(samples[i]);
+    Sample& sample = kept.back();
     sample.target_item = place.item;
     shape_weights(place, std::span(sample.target_value).first(place.nodes()));
     owners.push_back(place.owner);
   }
-  samples.resize(kept);
-  return owners;
 }
 
 /// Samples into rows of the local elements; those of one element by source element.
-void sort_into(std::size_t elements, std::vector<Sample>&& arrived, TargetSamples& result) {
+void sort_into(std::size_t elements, std::span<const Sample> arrived, TargetSamples& result) {
   result.begin.assign(elements + 1, 0);
   for (const Sample& s : arrived) ++result.begin[static_cast<std::size_t>(s.target_item) + 1];
   std::partial_sum(result.begin.begin(), result.begin.end(), result.begin.begin());
@@ -155,12 +171,19 @@ std::vector<Sample> ghost_samples(const Side& target, const TargetSamples& owned
 
 }  // namespace
 
-const std::vector<TabulatedPoint>& SampleTables::of(ElementKind kind, int cells) {
+const SampleTables::Table& SampleTables::table(ElementKind kind, int cells) {
   auto& tables = tables_[static_cast<std::size_t>(kind)];
   const auto n = static_cast<std::size_t>(cells);
   if (tables.size() <= n) tables.resize(n + 1);
-  if (tables[n].empty()) tables[n] = subdivision_points(kind, cells);
-  return tables[n];
+  Table& table = tables[n];
+  if (!table.points.empty()) return table;
+  table.points = subdivision_points(kind, cells);
+  const auto width =
+      static_cast<std::size_t>(topology(kind).nodes <= max_linear_nodes ? max_linear_nodes : max_element_nodes);
+  for (const TabulatedPoint& point : table.points)
+    table.values.insert(table.values.end(), point.value.begin(),
+                        point.value.begin() + static_cast<std::ptrdiff_t>(width));
+  return table;
 }
 
 TargetSamples samples_in_target(const Side& source, const Side& target, const PlaceRules& rules, double per_edge,
@@ -171,11 +194,16 @@ TargetSamples samples_in_target(const Side& source, const Side& target, const Pl
   std::vector<Sample> arrived;
   {
     const Containers containers = containers_of(target.mesh, target.coordinates, {}, rules.tolerance, name);
-    Candidates candidates = candidates_in(source, box_of(comm, containers), spacing, tables);
-    const std::vector<Placement> places =
-        Locator(comm, rules, false, name + ".locate").find(containers, candidates.points);
-    std::vector<Sample> samples = std::move(candidates.samples);
-    const std::vector<int> owners = take_places(samples, places);
+    Candidates candidates(source, box_of(comm, containers), spacing, tables);
+    std::vector<Sample> samples;
+    std::vector<int> owners;
+    const std::size_t batch = std::max(least_batch, 4 * containers.set.boxes.size());
+    while (comm.any(!candidates.done())) {
+      candidates.next(batch);
+      const std::vector<Placement> places =
+          Locator(comm, rules, false, name + ".locate").find(containers, candidates.points);
+      take_places(candidates.samples, places, samples, owners);
+    }
     result.points = comm.sum(candidates.sought);
     result.outside = result.points - comm.sum(static_cast<std::int64_t>(samples.size()));
     if (comm.size() == 1) {
@@ -187,11 +215,11 @@ TargetSamples samples_in_target(const Side& source, const Side& target, const Pl
     }
   }
   const auto elements = static_cast<std::size_t>(target.mesh.elements());
-  sort_into(elements, std::vector<Sample>(arrived), result);
+  sort_into(elements, arrived, result);
   if (comm.size() == 1) return result;
   const std::vector<Sample> ghosts = ghost_samples(target, result, name + ".ghosts");
   arrived.insert(arrived.end(), ghosts.begin(), ghosts.end());
-  sort_into(elements, std::move(arrived), result);
+  sort_into(elements, arrived, result);
   return result;
 }
 

@@ -27,10 +27,17 @@ struct Sample {
 /// The tables of quadrature points by kind of element and number of cells along an edge, made when first asked for.
 class SampleTables {
  public:
-  const std::vector<TabulatedPoint>& of(ElementKind kind, int cells);
+  const std::vector<TabulatedPoint>& of(ElementKind kind, int cells) { return table(kind, cells).points; }
+  /// Their shape functions alone, padded to max_linear_nodes or max_nodes for each point.
+  std::span<const double> values(ElementKind kind, int cells) { return table(kind, cells).values; }
 
  private:
-  std::array<std::vector<std::vector<TabulatedPoint>>, element_kinds> tables_;
+  struct Table {
+    std::vector<TabulatedPoint> points;
+    std::vector<double> values;
+  };
+  const Table& table(ElementKind kind, int cells);
+  std::array<std::vector<Table>, element_kinds> tables_;
 };
 
 /// The samples in each local target element, owned or ghost: begin[t] .. begin[t+1]), ascending by source element and
@@ -46,8 +53,8 @@ struct TargetSamples {
 };
 
 /// Collective. Midpoints of sub-cells of the source elements, so fine that there are about `per_edge` of them along an
-/// edge of the mean target element, but at least 2 and at most 6 along one of the source element. Points outside the
-/// target are dropped.
+/// edge of the mean target element, to the nearest number, but at least 2 and at most 6 along one of the source
+/// element. Points outside the target are dropped.
 TargetSamples samples_in_target(const Side& source, const Side& target, const PlaceRules& rules, double per_edge,
                                 SampleTables& tables, const std::string& name);
 

@@ -11,11 +11,12 @@
 namespace tenon::transfer {
 
 /// Row i has the terms begin[i] .. begin[i+1]). Sums are taken in the order of the terms, in four parts (every fourth
-/// term, for the latency of the additions): the same bits wherever a row is worked out.
+/// term, for the latency of the additions): the same bits wherever a row is worked out. Value is double or float.
+template <typename Value>
 struct SparseRows {
   std::vector<std::int64_t> begin{0};
   std::vector<LocalIndex> column;
-  std::vector<double> value;
+  std::vector<Value> value;
 
   std::size_t size() const { return begin.size() - 1; }
   std::size_t first(std::size_t row) const { return static_cast<std::size_t>(begin[row]); }
