@@ -5,12 +5,14 @@
 #include <cmath>
 #include <numeric>
 
+#include "transfer/place_many.hpp"
+
 namespace tenon::transfer {
 
 namespace {
 
-constexpr int fewest = 2, most = 6;  // sub-cells along an edge
-constexpr std::size_t least_batch = 1 << 18;
+constexpr int fewest = 2, most = 6;                                  // sub-cells along an edge
+constexpr std::size_t small_batch = 1 << 14, large_batch = 1 << 18;  // points
 
 double edge_of(ElementKind kind, double measure) {
   return topology(kind).dimension == 3 ? std::cbrt(measure) : std::sqrt(measure);
@@ -101,12 +103,57 @@ class Candidates {
   LocalIndex element_ = 0, item_ = 0;
 };
 
+/// Finds points in the target's elements. Those outside come back as such, or with no element.
+class Finder {
+ public:
+  /// Collective.
+  Finder(const Communicator& comm, const Containers& containers, const PlaceRules& rules, const std::string& name)
+      : comm_(comm), containers_(containers), rules_(rules), name_(name) {
+    if (comm.size() > 1) return;
+    tree_.build(containers.set.boxes);
+    // Which solid is the nearest is of no interest; a surface is never hit quite.
+    double size = 0;
+    for (const Box& box : containers.set.boxes) size = std::max(size, box.diagonal());
+    reach_ = containers.surfaces ? greatest_gap() : rules.tolerance * size;
+  }
+
+  /// Points that are best sought at a time: a rendezvous has its price, a rank alone stays within its caches.
+  std::size_t batch() const {
+    return comm_.size() == 1 ? small_batch : std::max(large_batch, 4 * containers_.set.size());
+  }
+  /// Collective.
+  std::span<const Placement> find(std::span<const Vec3> points) {
+    if (comm_.size() > 1) {
+      places_ = Locator(comm_, rules_, false, name_).find(containers_, points);
+    } else {
+      places_.assign(points.size(), Placement{});
+      place_many(containers_.set, tree_, points, reach_, rules_, places_);
+    }
+    return places_;
+  }
+  bool holds(const Placement& place) const {
+    return place.found() && (!place.is_outside() || (containers_.surfaces && place.distance <= greatest_gap()));
+  }
+
+ private:
+  /// Between two meshes of one curved surface, m.
+  double greatest_gap() const { return containers_.mean_size / 3; }
+
+  const Communicator& comm_;
+  const Containers& containers_;
+  PlaceRules rules_;
+  std::string name_;
+  BoxTree tree_;
+  double reach_ = 0;
+  std::vector<Placement> places_;
+};
+
 /// Completes the samples that lie in a target element and appends them, with the owner of each element.
-void take_places(std::span<const Sample> samples, std::span<const Placement> places, std::vector<Sample>& kept,
-                 std::vector<int>& owners) {
+void take_places(const Finder& finder, std::span<const Sample> samples, std::span<const Placement> places,
+                 std::vector<Sample>& kept, std::vector<int>& owners) {
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const Placement& place = places[i];
-    if (place.is_outside() || !place.found()) continue;
+    if (!finder.holds(place)) continue;
     kept.push_back(samples[i]);
     Sample& sample = kept.back();
     sample.target_item = place.item;
@@ -197,12 +244,10 @@ TargetSamples samples_in_target(const Side& source, const Side& target, const Pl
     Candidates candidates(source, box_of(comm, containers), spacing, tables);
     std::vector<Sample> samples;
     std::vector<int> owners;
-    const std::size_t batch = std::max(least_batch, 4 * containers.set.boxes.size());
+    Finder finder(comm, containers, rules, name + ".locate");
     while (comm.any(!candidates.done())) {
-      candidates.next(batch);
-      const std::vector<Placement> places =
-          Locator(comm, rules, false, name + ".locate").find(containers, candidates.points);
-      take_places(candidates.samples, places, samples, owners);
+      candidates.next(finder.batch());
+      take_places(finder, candidates.samples, finder.find(candidates.points), samples, owners);
     }
     result.points = comm.sum(candidates.sought);
     result.outside = result.points - comm.sum(static_cast<std::int64_t>(samples.size()));
