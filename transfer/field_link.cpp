@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "transfer/mesh_items.hpp"
+
 namespace tenon::transfer {
 
 namespace {
@@ -87,11 +89,21 @@ FieldLink::FieldLink(std::string name, Component& source, Component& target, Fie
   if (options_.schedule == CouplingSchedule::slower_step && !import_.at_source_steps.empty())
     throw Error(ExitCode::usage, fmt::format("transfer '{}': {}, or let it run `every: source_step`", this->name(),
                                              import_.at_source_steps));
+  if (linear() && total() && !import_.at_source_steps.empty())
+    throw Error(ExitCode::usage, fmt::format("transfer '{}': {}; `between_samples: linear` would keep part of it back",
+                                             this->name(), import_.at_source_steps));
   const auto width = static_cast<std::size_t>(export_.field.components);
   source_values_.resize(items_at(source.mesh(), export_.field.location) * width);
   target_values_.resize(items_at(target.mesh(), import_.field.location) * width);
   source_owned_ = owned_items(source.mesh(), export_.field.location).items;
   target_owned_ = owned_items(target.mesh(), import_.field.location).items;
+  if (linear()) {
+    prepared_values_.resize(target_values_.size());
+    if (total())
+      release_ = SteadyRelease(target_values_.size());
+    else
+      line_ = LinearInTime(target_values_.size());
+  }
   if (total()) {
     sent_.assign(source_owned_.size() * width, 0.0);
     received_.assign(target_owned_.size() * width, 0.0);
@@ -99,6 +111,7 @@ FieldLink::FieldLink(std::string name, Component& source, Component& target, Fie
 }
 
 void FieldLink::initialize() {
+  if (!release_.loaded()) release_.start(source().time());
   build();
 }
 
@@ -131,11 +144,37 @@ void FieldLink::run() {
   }
   export_.read(source_values_);
   map_->apply(source_values_, target_values_, export_.field.components);
-  import_.write(target_values_);
-  if (!total()) return;
   const auto width = static_cast<std::size_t>(export_.field.components);
-  accumulate(source_owned_, width, source_values_, sent_);
-  accumulate(target_owned_, width, target_values_, received_);
+  if (total()) accumulate(source_owned_, width, source_values_, sent_);
+  if (linear() && total()) {
+    release_.take(source().time(), target().time(), target_values_);
+    return;
+  }
+  import_.write(target_values_);
+  if (total()) accumulate(target_owned_, width, target_values_, received_);
+  if (linear()) line_.take(source().time(), target_values_);
+}
+
+void FieldLink::prepare(double time) {
+  if (!linear() || (!total() && !line_.moves(time))) return;
+  if (!total()) {
+    line_.at(time, prepared_values_);
+    import_.write(prepared_values_);
+    return;
+  }
+  release_.give(target().time(), time, prepared_values_);
+  import_.write(prepared_values_);
+  accumulate(target_owned_, static_cast<std::size_t>(export_.field.components), prepared_values_, received_);
+}
+
+std::vector<double> FieldLink::waiting() const {
+  std::vector<double> owned;
+  if (!linear() || !total()) return owned;
+  const auto width = static_cast<std::size_t>(export_.field.components);
+  for (const LocalIndex i : target_owned_)
+    for (std::size_t c = 0; c < width; ++c)
+      owned.push_back(release_.waiting()[static_cast<std::size_t>(i) * width + c]);
+  return owned;
 }
 
 std::vector<std::string> FieldLink::report() {
@@ -152,9 +191,12 @@ std::vector<std::string> FieldLink::report() {
     for (std::size_t c = 0; c < width; ++c) {
       const double sent = source().mesh().comm.sum(exact(sent_, width, c));
       const double arrived = source().mesh().comm.sum(exact(received_, width, c));
+      const double waits = source().mesh().comm.sum(exact(waiting(), width, c));
       const double scale = std::max(std::abs(sent), std::abs(arrived));
-      lines.push_back(fmt::format("sent{} {:.10g} {}, arrived {:.10g} {}, relative mismatch {:.1e}", suffix(width, c),
-                                  sent, unit, arrived, unit, scale > 0 ? std::abs(sent - arrived) / scale : 0.0));
+      lines.push_back(fmt::format("sent{} {:.10g} {}, arrived {:.10g} {}{}, relative mismatch {:.1e}", suffix(width, c),
+                                  sent, unit, arrived, unit,
+                                  linear() ? fmt::format(", waiting {:.10g} {}", waits, unit) : std::string(),
+                                  scale > 0 ? std::abs(sent - arrived - waits) / scale : 0.0));
     }
   } else {
     lines.push_back(
@@ -172,14 +214,24 @@ std::vector<std::pair<std::string, ExactSum>> FieldLink::amounts() {
   for (std::size_t c = 0; c < width; ++c) {
     all.emplace_back("transfer." + name() + ".sent" + suffix(width, c), exact(sent_, width, c));
     all.emplace_back("transfer." + name() + ".arrived" + suffix(width, c), exact(received_, width, c));
+    if (linear()) all.emplace_back("transfer." + name() + ".waiting" + suffix(width, c), exact(waiting(), width, c));
   }
   return all;
 }
 
 void FieldLink::save(CheckpointWriter& file) {
+  if (!total() && !linear()) return;
+  const OwnedItems to = owned_items(target().mesh(), import_.field.location);
+  if (linear()) {
+    const GlobalOrder order(target().mesh().comm, to.ids, to.global_count);
+    const std::string what = "transfer." + name();
+    if (total())
+      release_.save(file, what, order, target_owned_, export_.field.components);
+    else
+      line_.save(file, what, order, target_owned_, export_.field.components);
+  }
   if (!total()) return;
   const OwnedItems from = owned_items(source().mesh(), export_.field.location);
-  const OwnedItems to = owned_items(target().mesh(), import_.field.location);
   file.array("transfer." + name() + ".sent", GlobalOrder(source().mesh().comm, from.ids, from.global_count), sent_,
              export_.field.components);
   file.array("transfer." + name() + ".arrived", GlobalOrder(target().mesh().comm, to.ids, to.global_count), received_,
@@ -187,9 +239,19 @@ void FieldLink::save(CheckpointWriter& file) {
 }
 
 void FieldLink::load(const CheckpointReader& file) {
+  if (!total() && !linear()) return;
+  const OwnedItems to = owned_items(target().mesh(), import_.field.location);
+  if (linear()) {
+    const GlobalOrder order(target().mesh().comm, items_of(target().mesh(), import_.field.location).ids,
+                            to.global_count);
+    const std::string what = "transfer." + name();
+    if (total())
+      release_.load(file, what, order, export_.field.components);
+    else
+      line_.load(file, what, order, export_.field.components);
+  }
   if (!total()) return;
   const OwnedItems from = owned_items(source().mesh(), export_.field.location);
-  const OwnedItems to = owned_items(target().mesh(), import_.field.location);
   file.array("transfer." + name() + ".sent", GlobalOrder(source().mesh().comm, from.ids, from.global_count), sent_,
              export_.field.components);
   file.array("transfer." + name() + ".arrived", GlobalOrder(target().mesh().comm, to.ids, to.global_count), received_,
@@ -199,7 +261,8 @@ void FieldLink::load(const CheckpointReader& file) {
 std::int64_t FieldLink::memory() const {
   return (map_ ? map_->memory() : 0) +
          static_cast<std::int64_t>(sizeof(double) *
-                                   (source_values_.size() + target_values_.size() + sent_.size() + received_.size()));
+                                   (source_values_.size() + target_values_.size() + sent_.size() + received_.size() +
+                                    prepared_values_.size() + release_.waiting().size() + line_.values()));
 }
 
 }  // namespace tenon::transfer

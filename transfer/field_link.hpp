@@ -8,6 +8,7 @@
 
 #include "framework/simulation/coupling.hpp"
 #include "transfer/grid_transfer.hpp"
+#include "transfer/time_samples.hpp"
 
 namespace tenon::transfer {
 
@@ -21,9 +22,10 @@ struct FieldLinkOptions {
   TransferOptions transfer;
   Configuration configuration = Configuration::reference;
   CouplingSchedule schedule = CouplingSchedule::slower_step;
+  BetweenSamples between_samples = BetweenSamples::hold;
 };
 
-/// Totals are accumulated on both sides, so that history.csv shows what was sent and what arrived.
+/// Totals are accumulated on both sides, so that history.csv shows what was sent, what arrived and what waits.
 class FieldLink : public Coupling {
  public:
   /// Throws Error(usage) if a field is missing (with the nearest name), or units, components or kinds do not fit.
@@ -32,6 +34,7 @@ class FieldLink : public Coupling {
   void initialize() override;
   void run() override;
   bool runs_at_start() const override { return !total(); }
+  void prepare(double time) override;
   std::vector<std::string> report() override;
   std::vector<std::pair<std::string, ExactSum>> amounts() override;
   void save(CheckpointWriter& file) override;
@@ -39,9 +42,11 @@ class FieldLink : public Coupling {
   std::int64_t memory() const override;
 
  private:
+  bool linear() const { return options_.between_samples == BetweenSamples::linear; }
   bool total() const { return export_.field.kind == FieldKind::total; }
   void build();
   bool moved() const;
+  std::vector<double> waiting() const;  // of the owned target items
 
   FieldLinkOptions options_;
   ExportPort export_;
@@ -50,6 +55,9 @@ class FieldLink : public Coupling {
   std::int64_t builds_ = 0, rebuilds_skipped_ = 0;
   std::vector<double> source_values_, target_values_;
   std::vector<double> sent_, received_;  // running totals of the owned items, J or the like
+  LinearInTime line_;                    // of a point value, where it is linear between samples
+  SteadyRelease release_;                // of a total, where it is handed over evenly
+  std::vector<double> prepared_values_;
   std::vector<LocalIndex> source_owned_, target_owned_;
   std::vector<Vec3> source_built_, target_built_;  // coordinates that the map was built for
 };

@@ -155,6 +155,7 @@ transfer::FieldLinkOptions link_options(const Value& block, std::string source_f
   options.transfer.outside_value = block.real("outside_value");
   if (block.has("greatest_distance")) options.transfer.greatest_distance = block.real("greatest_distance");
   if (block.text("configuration") == "current") options.configuration = transfer::Configuration::current;
+  if (block.text("between_samples") == "linear") options.between_samples = transfer::BetweenSamples::linear;
   if (block.text("every") == "source_step") options.schedule = CouplingSchedule::source_step;
   return options;
 }

@@ -37,6 +37,12 @@ Schema transfer_schema() {
            "Once per step of the slower of the two components, or after every step of the source. Totals accumulate in "
            "between, so nothing is lost either way.",
            "slower_step");
+  s.choice(
+      "between_samples", {"hold", "linear"},
+      "What the receiver sees between two steps of a slower source. `hold`: the last value; amounts arrive at once. "
+      "`linear`: values go on along the line through the last two (second order in time, but it may overshoot where "
+      "the source turns); amounts arrive evenly over as long as they took to gather.",
+      "hold");
   return s;
 }
 

@@ -34,6 +34,10 @@ class Coupling {
   /// True if the first values must reach the target before the first step (point values do; totals have none yet).
   virtual bool runs_at_start() const = 0;
 
+  /// Collective. Called before each step of the target, after what runs then: the target is about to advance to `time`
+  /// (s), and may be given what it is to see at the end of that step.
+  virtual void prepare(double) {}
+
   /// Lines of its report for the log, and amounts for history.csv: column name and this rank's share (summed exactly).
   virtual std::vector<std::string> report() = 0;
   virtual std::vector<std::pair<std::string, ExactSum>> amounts() { return {}; }

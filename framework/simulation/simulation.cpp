@@ -147,6 +147,7 @@ void Simulation::step() {
                     steps_, time_, end_time_));
   choose_leader();
   dt_ = leader_step();
+  prepare_couplings(leader_, time_ + dt_);
   leader_->advance(dt_);
   time_ = leader_->time();
   ++steps_;
@@ -195,11 +196,17 @@ void Simulation::follow() {
     for (const auto& other : components_)
       if (other.get() != leader_ && other != component)
         run_couplings(other.get(), component.get(), CouplingSchedule::slower_step);
+    prepare_couplings(component.get(), time_);
     component->advance(time_ - component->time());
     component->set_clock(time_);  // the same bits as the leader's, whatever t + (T - t) rounds to
     run_couplings(component.get(), nullptr, CouplingSchedule::source_step);
     run_couplings(component.get(), leader_, CouplingSchedule::slower_step);
   }
+}
+
+void Simulation::prepare_couplings(const Component* target, double time) {
+  for (const auto& coupling : couplings_)
+    if (&coupling->target() == target) coupling->prepare(time);
 }
 
 void Simulation::run_couplings(const Component* source, const Component* target, CouplingSchedule schedule) {

@@ -30,9 +30,9 @@ class Observer {
 
 /// A coupled run. The component with the smallest time step leads; the others follow when their own step is due, so
 /// that each advances with a step of its own:
-///   lead      the leader advances by its step
+///   lead      couplings prepare the leader's step; it advances
 ///   couple    couplings that run at every step of the leader
-///   follow    each component that is due: couplings towards it, its step, couplings from it
+///   follow    each component that is due: couplings towards it, which prepare its step; its step; couplings from it
 ///   observe   output, log and checkpoint that are due
 /// No component ever advances by more than its limit, and all of them stand at the end time when the run is over.
 class Simulation {
@@ -89,6 +89,7 @@ class Simulation {
   double leader_step();
   void follow();
   bool due(Component& follower);
+  void prepare_couplings(const Component* target, double time);
   void run_couplings(const Component* source, const Component* target, CouplingSchedule schedule);
   void load(const CheckpointReader& file);
   void refuse_too_many_steps();
