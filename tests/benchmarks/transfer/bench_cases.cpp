@@ -58,6 +58,34 @@ std::shared_ptr<const Mesh> cube(int n, std::uint64_t seed, const CubeShape& sha
   return slab_of(generate(box), n, shape.slabs == Slabs::x ? 0 : 1);
 }
 
+std::shared_ptr<const Mesh> sphere_surface(int n) {
+  SphereShape shape;
+  shape.core = n;
+  shape.shell = 1;
+  const MeshData ball = generate(shape);
+  const BlockData& solids = ball.blocks.front();
+  const Topology& hex = topology(solids.kind);
+  MeshData surface;
+  surface.source = "sphere";
+  surface.blocks.push_back({"sphere", 1, ElementKind::quad4, {}, {}});
+  BlockData& quads = surface.blocks.front();
+  std::vector<GlobalId> number(ball.coordinates.size(), no_id);
+  for (const SideData& side : skin(ball)) {
+    quads.labels.push_back(static_cast<std::int64_t>(quads.labels.size()) + 1);
+    for (const std::int8_t corner : hex.side[static_cast<std::size_t>(side.side)]) {
+      const auto node =
+          static_cast<std::size_t>(solids.connectivity[static_cast<std::size_t>(side.element * hex.nodes + corner)]);
+      if (number[node] == no_id) {
+        number[node] = static_cast<GlobalId>(surface.coordinates.size());
+        surface.coordinates.push_back(ball.coordinates[node]);
+        surface.node_labels.push_back(number[node] + 1);
+      }
+      quads.connectivity.push_back(number[node]);
+    }
+  }
+  return distribute(Communicator::world(), std::move(surface), {});
+}
+
 Targets nodes_of(std::string name, std::shared_ptr<const Mesh> mesh) {
   Targets targets{std::move(name), std::move(mesh), {}};
   targets.points = targets.mesh->coordinates;

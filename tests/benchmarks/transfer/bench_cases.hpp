@@ -37,6 +37,8 @@ struct CubeShape {
 };
 /// Collective. Unit cube of n^3 hexahedra, interior nodes moved at random by up to 0.2 h in each direction.
 std::shared_ptr<const Mesh> cube(int n, std::uint64_t seed, const CubeShape& shape = {});
+/// Collective. The outside of a ball of radius 1, quadrilaterals, n of them along each edge of the cube inside.
+std::shared_ptr<const Mesh> sphere_surface(int n);
 Targets nodes_of(std::string name, std::shared_ptr<const Mesh> mesh);
 /// Collective. Component c of point q is u(seed, q, c); in slabs along y.
 Targets random_points(GlobalId count, std::uint64_t seed);
