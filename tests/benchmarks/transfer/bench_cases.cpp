@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "framework/mesh/assemble.hpp"
 
@@ -87,22 +88,23 @@ std::shared_ptr<const Mesh> sphere_surface(int n) {
 }
 
 Targets nodes_of(std::string name, std::shared_ptr<const Mesh> mesh) {
-  Targets targets{std::move(name), std::move(mesh), {}};
-  targets.points = targets.mesh->coordinates;
-  return targets;
+  return {std::move(name), mesh->coordinates, mesh->owned_nodes, mesh->global_nodes, mesh, nullptr};
 }
 
 Targets random_points(GlobalId count, std::uint64_t seed) {
   const Communicator world = Communicator::world();
-  std::vector<std::int64_t> ids;
-  std::vector<Vec3> points;
+  transfer::PointCloud cloud{world, {}, "random points"};
+  Targets targets{"random points", {}, {}, count, nullptr, nullptr};
   for (std::uint64_t q = 0; q < static_cast<std::uint64_t>(count); ++q) {
     const Vec3 x{uniform(seed, q, 0), uniform(seed, q, 1), uniform(seed, q, 2)};
     if (static_cast<int>(x[1] * world.size()) != world.rank()) continue;
-    ids.push_back(static_cast<std::int64_t>(q));
-    points.push_back(x);
+    cloud.ids.push_back(static_cast<GlobalId>(q));
+    targets.points.push_back(x);
   }
-  return nodes_of("random points", assemble(world, MeshPart{ids, points, {}}, {.source = "random points"}).mesh);
+  targets.owned.resize(cloud.ids.size());
+  std::iota(targets.owned.begin(), targets.owned.end(), 0);
+  targets.cloud = std::make_shared<const transfer::PointCloud>(std::move(cloud));
+  return targets;
 }
 
 std::unique_ptr<transfer::GridTransfer> interpolation(const Mesh& source, std::span<const Vec3> coordinates,
@@ -133,14 +135,14 @@ std::vector<double> sampled(std::span<const Vec3> points, Function f) {
 Errors errors_of(const Targets& targets, std::span<const double> values, Function f) {
   Errors errors;
   ExactSum squares;
-  for (const LocalIndex n : targets.mesh->owned_nodes) {
+  for (const LocalIndex n : targets.owned) {
     const double error = std::abs(values[static_cast<std::size_t>(n)] - f(targets.points[static_cast<std::size_t>(n)]));
     errors.greatest = std::max(errors.greatest, std::isnan(error) ? HUGE_VAL : error);
     squares.add(error * error);
   }
-  const Communicator& comm = targets.mesh->comm;
+  const Communicator& comm = targets.comm();
   errors.greatest = comm.max(errors.greatest);
-  errors.rms = std::sqrt(comm.sum(squares) / static_cast<double>(targets.count()));
+  errors.rms = std::sqrt(comm.sum(squares) / static_cast<double>(targets.count));
   return errors;
 }
 

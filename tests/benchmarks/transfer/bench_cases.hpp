@@ -17,14 +17,16 @@ namespace tenon::bench {
 /// Points that receive values: the nodes of a mesh, or points alone.
 struct Targets {
   std::string name;
+  std::vector<Vec3> points;       ///< of all local nodes, m
+  std::vector<LocalIndex> owned;  ///< by this rank, of these
+  GlobalId count = 0;             ///< over all ranks
   std::shared_ptr<const Mesh> mesh;
-  std::vector<Vec3> points;  ///< of all local nodes, m
-  transfer::Grid grid() const { return {mesh.get(), points, Location::node}; }
-  GlobalId count() const { return mesh->global_nodes; }
-  /// Collective. Of the rank that has most.
-  double greatest_share() const {
-    return static_cast<double>(mesh->comm.max(static_cast<std::int64_t>(mesh->owned_nodes.size())));
-  }
+  std::shared_ptr<const transfer::PointCloud> cloud;  ///< instead
+
+  transfer::Grid grid() const { return {mesh.get(), points, mesh ? Location::node : Location::particle, cloud.get()}; }
+  const Communicator& comm() const { return mesh ? mesh->comm : cloud->comm; }
+  /// Collective. Of the rank that owns most.
+  double greatest_share() const { return static_cast<double>(comm().max(static_cast<std::int64_t>(owned.size()))); }
 };
 
 /// How the elements of a cube are spread over the ranks: in slabs of equal thickness along x or y.

@@ -67,10 +67,10 @@ class Work {
     const double n = targets_.greatest_share();
     map_->apply(values_, result_, 1);
     const Errors smooth = errors_of(targets_, result_, smooth_field);
-    const transfer::TransferReport report = map_->report(values_, result_, 1);
+    const auto [outside, distance] = outside_of();
     map_->apply(linear_, result_, 1);
     const Errors linear = errors_of(targets_, result_, linear_field);
-    const double bytes = static_cast<double>(comm_.sum(map_->memory())) / static_cast<double>(targets_.count());
+    const double bytes = static_cast<double>(comm_.sum(map_->memory())) / static_cast<double>(targets_.count);
     Errors theirs;
     if (rival_) {
       rival_map_.apply(linear_, result_);
@@ -88,16 +88,30 @@ class Work {
     fmt::print("  apply, each of three fields {}\n", line(apply_three_, n, 3 * applies));
     if (rival_) fmt::print("  VTK's weights kept, apply   {}\n", line(rival_apply_, n, applies));
     fmt::print("  copying {} bytes            {}\n", copied, line(copy_, n, applies));
-    fmt::print("  {:.1f} bytes per target; outside {}, greatest distance {:.3g}\n", bytes, report.outside,
-               report.greatest_distance);
+    fmt::print("  {:.1f} bytes per target; outside {}, greatest distance {:.3g}\n", bytes, outside, distance);
     fmt::print("  errors: f_s {:.3e} max {:.3e} rms, f_l {:.2e} max\n", smooth.greatest, smooth.rms, linear.greatest);
     if (rival_) fmt::print("  VTK static locator: f_l {:.2e} max, lost {}\n", theirs.greatest, rival_map_.lost);
   }
 
  private:
+  /// Collective. How many targets lie outside of the source, and how far.
+  std::pair<GlobalId, double> outside_of() const {
+    std::vector<transfer::PointStatus> status(targets_.points.size());
+    std::vector<double> distance(status.size());
+    map_->status(status, distance);
+    GlobalId count = 0;
+    double greatest = 0;
+    for (const LocalIndex n : targets_.owned) {
+      const auto i = static_cast<std::size_t>(n);
+      if (status[i] != transfer::PointStatus::inside) ++count;
+      greatest = std::max(greatest, distance[i]);
+    }
+    return {comm_.sum(count), comm_.max(greatest)};
+  }
+
   /// Moves as many bytes per target.
   void copy_once() {
-    const std::size_t half = copied / 2 * targets_.mesh->owned_nodes.size();
+    const std::size_t half = copied / 2 * targets_.owned.size();
     if (from_.empty()) from_.resize(half, 1), to_.resize(half);
     std::memcpy(to_.data(), from_.data(), half);
   }
@@ -128,7 +142,7 @@ class Work {
 
 void run_work_case(const std::string& title, const Mesh& source, const Targets& targets, const WorkOptions& options) {
   if (source.comm.rank() == 0)
-    fmt::print("{} -> {} {}, {} rank{}\n", title, targets.count(), targets.name, source.comm.size(),
+    fmt::print("{} -> {} {}, {} rank{}\n", title, targets.count, targets.name, source.comm.size(),
                source.comm.size() > 1 ? "s" : "");
   Work work(source, targets, options);
   work.set_up();

@@ -91,6 +91,16 @@ struct Ends {
   }
 };
 
+/// From one sphere of facets to the nodes of another.
+Way nearest_projection() {
+  return {"surface", "nearest_projection, quad4", [](int n) {
+            TransferOptions options;
+            options.method = Method::nearest_projection;
+            return by_transfer(sphere_surface(n), nodes_of("nodes", sphere_surface(n + n / 4)), FieldKind::point_value,
+                               options);
+          }};
+}
+
 Way projection(const std::string& name, bool bounded) {
   return {
       "volume", name, [=](int n) {
@@ -110,7 +120,6 @@ Way moving_least_squares() {
   return {"volume", "moving least squares, 20 points", [](int n) {
             const auto ends = std::make_shared<Ends>(n);
             const auto map = std::make_shared<transfer::RowMap>();
-            const auto gathered = std::make_shared<std::vector<double>>();
             const auto set_up = [=] {
               *map = {};
               std::vector<transfer::FittedPoint> fitted;
@@ -118,11 +127,9 @@ Way moving_least_squares() {
               const transfer::Rows rows = moving_least_squares_rows(comm, ends->source_nodes, ends->source->coordinates,
                                                                     ends->targets.points, {}, "bench", fitted);
               *map = transfer::RowMap(comm, rows, "bench");
-              gathered->resize(map->slots());
             };
             return Trial{ends->targets, set_up, [=](std::span<double> result) {
-                           map->gather().forward(std::span<const double>(ends->values), std::span(*gathered));
-                           map->multiply(*gathered, result, 1);
+                           map->multiply(map->gathered(std::span<const double>(ends->values)), result, 1);
                          }};
           }};
 }
@@ -156,6 +163,7 @@ std::vector<Way> ways() {
           projection("project", false),
           projection("project, bounded", true),
           moving_least_squares(),
+          nearest_projection(),
           vtk_locator(),
           vtk_probe()};
 }
@@ -181,8 +189,8 @@ std::string row(const Way& way, int n) {
   const Errors errors = errors_of(trial.targets, result, smooth_field);
   const std::vector<double> nothing(result.size(), 0.0);
   const Errors whole = errors_of(trial.targets, nothing, smooth_field);
-  return fmt::format("{},\"{}\",{},{},{:.4e},{:.4e},{:.4e},{:.4e}", way.panel, way.name, n, trial.targets.count(),
-                     set_up, apply, errors.rms / whole.rms, errors.greatest / whole.greatest);
+  return fmt::format("{},\"{}\",{},{},{:.4e},{:.4e},{:.4e},{:.4e}", way.panel, way.name, n, trial.targets.count, set_up,
+                     apply, errors.rms / whole.rms, errors.greatest / whole.greatest);
 }
 
 }  // namespace
