@@ -9,6 +9,7 @@
 #include <fstream>
 #include <limits>
 #include <map>
+#include <memory>
 
 #include "transfer_testing.hpp"
 
@@ -23,7 +24,8 @@ const char* const file_name = "transfer_moving_least_squares.txt";
 /// Points of all ranks by their ids, of which this rank owns some.
 struct Cloud {
   std::vector<Vec3> all;
-  Items items;               ///< those of this rank
+  std::unique_ptr<PointCloud> points;  ///< those of this rank
+  Items items;
   std::vector<Vec3> places;  ///< of them
 };
 
@@ -35,6 +37,7 @@ enum class Spread { slabs, round_robin, last_rank };
 
 Cloud shared_out(std::vector<Vec3> all, Spread spread = Spread::slabs) {
   Cloud cloud;
+  cloud.points = std::make_unique<PointCloud>(PointCloud{communicator(), {}, "points"});
   const auto ranks = static_cast<std::size_t>(communicator().size()),
              rank = static_cast<std::size_t>(communicator().rank());
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -42,13 +45,10 @@ Cloud shared_out(std::vector<Vec3> all, Spread spread = Spread::slabs) {
                               : spread == Spread::round_robin ? i % ranks
                                                               : ranks - 1;
     if (owner != rank) continue;
-    const auto here = static_cast<LocalIndex>(cloud.places.size());
-    cloud.items.ids.push_back(static_cast<GlobalId>(i));
-    cloud.items.owners.push_back(communicator().rank());
-    cloud.items.at_owner.push_back(here);
-    cloud.items.owned.push_back(here);
+    cloud.points->ids.push_back(static_cast<GlobalId>(i));
     cloud.places.push_back(all[i]);
   }
+  cloud.items = items_of(*cloud.points);
   cloud.all = std::move(all);
   return cloud;
 }
