@@ -55,8 +55,8 @@ class Placer {
       else
         advance(i);
     }
-    // Tasks wait until there are four of them; the last ones are made up of copies.
-    while (waiting_ > 0) run(std::min<std::size_t>(waiting_, 4));
+    // The last tasks are made up of copies.
+    while (waiting_ > 0) run(std::min(waiting_, hex_lanes));
     for (std::size_t i = 0; i < count; ++i) {
       if (done_[i]) continue;
       if (best_[i].element == no_index)
@@ -139,43 +139,32 @@ class Placer {
   }
 
   void run(std::size_t count) {
-    std::array<HexTask, 4> tasks;
-    std::array<Queued, 4> queued;
-    for (std::size_t l = 0; l < 4; ++l) {
+    std::array<HexTask, hex_lanes> tasks;
+    std::array<Queued, hex_lanes> queued;
+    for (std::size_t l = 0; l < hex_lanes; ++l) {
       queued[l] = queue_[waiting_ - 1 - std::min(l, count - 1)];
       tasks[l] = {elements_.nodes_of(queued[l].element), (*points_)[queued[l].point]};
     }
     waiting_ -= count;
-    const HexCorners corners = hex_corners(elements_.x.data(), tasks);
-    HexLocal at = hex_newton(hex_polynomial(corners));
-    const Pack outside = hex_overshoot(at);
-    std::array<bool, 4> over{};
-    bool any_over = false;
+    HexPlaces at;
+    place_in_hexahedra(elements_.x.data(), tasks, at);
     for (std::size_t l = 0; l < count; ++l) {
       const std::size_t i = queued[l].point;
       if (!at.converged[l]) {
         if (!try_alone(i, queued[l].element)) advance(i);
-        continue;
+      } else if (take(i, queued[l].element, at.overshoot[l], at.xi[l])) {
+        write_inside(elements_, queued[l].element, at.xi[l], candidates_[i].next, *(*places_)[i]);
+        done_[i] = true;
+      } else {
+        advance(i);
       }
-      over[l] = take(i, queued[l].element, outside[l], {at.xi[l], at.eta[l], at.zeta[l]});
-      any_over = any_over || over[l];
-      if (!over[l]) advance(i);
     }
-    if (!any_over) return;
-    put_within(corners, at);
-    for (std::size_t l = 0; l < count; ++l)
-      if (over[l]) write(queued[l], {at.xi[l], at.eta[l], at.zeta[l]});
   }
 
   struct Queued {
     std::size_t point;
     LocalIndex element;
   };
-
-  void write(const Queued& task, const Vec3& xi) {
-    write_inside(elements_, task.element, xi, candidates_[task.point].next, *(*places_)[task.point]);
-    done_[task.point] = true;
-  }
 
   /// The best element for a point so far, in the manner of place_inside.
   struct Best {
@@ -194,7 +183,7 @@ class Placer {
   std::array<Candidates, block_points> candidates_;
   std::array<Best, block_points> best_;
   std::array<bool, block_points> done_;
-  std::array<Queued, block_points + 4> queue_;
+  std::array<Queued, block_points + hex_lanes> queue_;
   std::size_t waiting_ = 0;
 };
 
@@ -263,19 +252,20 @@ void place_many(const ElementSet& elements, const BoxTree& tree, std::span<const
 bool place_again(const ElementSet& elements, std::span<const Vec3> points, std::span<LocalIndex> held,
                  std::span<Placement> places) {
   bool all = true;
-  std::array<HexTask, 4> tasks;
-  std::array<std::size_t, 4> of;
+  std::array<HexTask, hex_lanes> tasks;
+  std::array<std::size_t, hex_lanes> of;
   std::size_t waiting = 0;
-  const auto settle = [&](std::size_t i, bool converged, const Vec3& xi) {
-    if (converged && depth(elements.kind(held[i]), xi) > well_inside)
+  const auto settle = [&](std::size_t i, bool within, const Vec3& xi) {
+    if (within)
       write_inside(elements, held[i], xi, 1, places[i]);
     else
       held[i] = no_index, all = false;
   };
+  HexPlaces at;
   const auto run = [&] {
-    for (std::size_t l = waiting; l < 4; ++l) tasks[l] = tasks[0];
-    const HexLocal at = hex_newton(hex_polynomial(hex_corners(elements.x.data(), tasks)));
-    for (std::size_t l = 0; l < waiting; ++l) settle(of[l], at.converged[l] != 0, {at.xi[l], at.eta[l], at.zeta[l]});
+    for (std::size_t l = waiting; l < hex_lanes; ++l) tasks[l] = tasks[0];
+    place_in_hexahedra(elements.x.data(), tasks, at);
+    for (std::size_t l = 0; l < waiting; ++l) settle(of[l], at.converged[l] && at.depth[l] > well_inside, at.xi[l]);
     waiting = 0;
   };
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -284,10 +274,11 @@ bool place_again(const ElementSet& elements, std::span<const Vec3> points, std::
       all = false;
     } else if (elements.kind(e) == ElementKind::hex8) {
       tasks[waiting] = {elements.nodes_of(e), &points[i]}, of[waiting] = i;
-      if (++waiting == 4) run();
+      if (++waiting == hex_lanes) run();
     } else {
-      const InverseMap inverse = inverse_map(elements.kind(e), CornerList(elements, e).span(), points[i]);
-      settle(i, inverse.converged, inverse.xi);
+      const ElementKind kind = elements.kind(e);
+      const InverseMap inverse = inverse_map(kind, CornerList(elements, e).span(), points[i]);
+      settle(i, inverse.converged && depth(kind, inverse.xi) > well_inside, inverse.xi);
     }
   }
   if (waiting > 0) run();

@@ -26,22 +26,25 @@ std::uint64_t spread(std::uint64_t x) {
 /// Place of a cell on the Hilbert curve through 2^48 cells, before interleaving (Skilling's transposition [Ski04]).
 /// Cell: a number, or a machine vector of them.
 template <typename Cell>
-void transpose_hilbert(Cell (&x)[3]) {
-  for (std::uint32_t bit = 1u << 15; bit > 1; bit >>= 1) {
-    const std::uint32_t below = bit - 1;
-    for (auto& coordinate : x) {
-      const Cell swapped = (x[0] ^ coordinate) & below;
-      const Cell set = Cell{} - ((coordinate & bit) / bit);  // all ones where the bit is set
-      const Cell invert = set & below, exchange = ~set & swapped;
-      x[0] ^= invert | exchange;
-      coordinate ^= exchange;
+[[gnu::always_inline]] inline void transpose_hilbert(Cell (&x)[3]) {
+  constexpr int bits = 16;
+  const auto all_if = [](const Cell& v, int bit) { return Cell{} - (v >> bit & 1); };  // all ones where the bit is set
+#pragma GCC unroll 16
+  for (int bit = bits - 1; bit > 0; --bit) {
+    const std::uint32_t below = (1u << bit) - 1;
+#pragma GCC unroll 3
+    for (int c = 0; c < 3; ++c) {
+      const Cell set = all_if(x[c], bit), swapped = (x[0] ^ x[c]) & below;
+      const Cell exchange = ~set & swapped;
+      x[0] ^= (set & below) | exchange;
+      x[c] ^= exchange;
     }
   }
   x[1] ^= x[0];
   x[2] ^= x[1];
   Cell flip{};
-  for (std::uint32_t bit = 1u << 15; bit > 1; bit >>= 1) flip ^= (Cell{} - ((x[2] & bit) / bit)) & (bit - 1);
-  for (auto& coordinate : x) coordinate ^= flip;
+  for (int bit = bits - 1; bit > 0; --bit) flip ^= all_if(x[2], bit) & ((1u << bit) - 1);
+  for (int c = 0; c < 3; ++c) x[c] ^= flip;
 }
 
 std::uint64_t interleaved(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
