@@ -13,7 +13,8 @@ using LaneMask = std::int64_t __attribute__((vector_size(8 * hex_lanes)));
 
 TENON_KERNEL bool any_lane(const LaneMask& mask) {
 #ifdef __AVX512F__
-  const auto low = __builtin_shufflevector(mask, mask, 0, 1, 2, 3), high = __builtin_shufflevector(mask, mask, 4, 5, 6, 7);
+  const auto low = __builtin_shufflevector(mask, mask, 0, 1, 2, 3),
+             high = __builtin_shufflevector(mask, mask, 4, 5, 6, 7);
   return any(low | high);
 #else
   return any(mask);
@@ -50,7 +51,9 @@ TENON_KERNEL Corners corners_of(const Vec3* x, const std::array<HexTask, hex_lan
 #ifdef __AVX512F__
     Pack e = at(4), f = at(5), g = at(6), h = at(7);
     transpose(e, f, g, h);
-    const auto joined = [](const Pack& p, const Pack& q) { return __builtin_shufflevector(p, q, 0, 1, 2, 3, 4, 5, 6, 7); };
+    const auto joined = [](const Pack& p, const Pack& q) {
+      return __builtin_shufflevector(p, q, 0, 1, 2, 3, 4, 5, 6, 7);
+    };
     result.x[i][0] = joined(a, e), result.x[i][1] = joined(b, f), result.x[i][2] = joined(c, g);
 #else
     result.x[i][0] = a, result.x[i][1] = b, result.x[i][2] = c;
@@ -126,7 +129,7 @@ TENON_KERNEL Local newton(const Polynomial& p) {
     at.eta = waiting ? at.eta - deta : at.eta;
     at.zeta = waiting ? at.zeta - dzeta : at.zeta;
     at.converged |= arrived & (determinant > 0.0);
-    waiting &= ~arrived & (residual < before);  // false for what is not a number
+    waiting &= ~arrived & (residual < 2 * before);  // false for what is not a number
     before = residual;
     if (!any_lane(waiting)) break;
   }

@@ -32,9 +32,9 @@ struct HexPlaces {
 };
 
 /// Newton from the centre, with steps no longer than the way from the centre plus 1, as inverse_map goes; a point is
-/// left where its own last step was below 1e-8, whatever the others do. Those whose residual grows, that are not there
-/// after 14 steps, or that end where the map is folded have not converged. Each point by itself: the same bits in any
-/// company (there is one copy of the code, which may contract products and sums).
+/// left where its own last step was below 1e-8, whatever the others do. Those whose residual doubles, that are not
+/// there after 14 steps, or that end where the map is folded have not converged. Each point by itself: the same bits in
+/// any company (there is one copy of the code, which may contract products and sums).
 void place_in_hexahedra(const Vec3* x, const std::array<HexTask, hex_lanes>& tasks, HexPlaces& places);
 
 }  // namespace tenon::transfer

@@ -16,17 +16,11 @@ namespace {
 
 constexpr std::size_t block_points = 16;     ///< that share a search
 constexpr std::size_t most_leaves = 96;      ///< of the tree that a block may meet
+constexpr std::size_t ahead = 48;            ///< points on their way from memory
 constexpr std::size_t most_candidates = 24;  ///< elements that a point may be in the boxes of
 constexpr double infinite = std::numeric_limits<double>::infinity();
-/// A point that is farther inside than this needs no comparison with a neighbour, in local coordinates.
+/// A point that is farther inside than this needs no comparison with a neighbour, in half widths.
 constexpr double well_inside = 1e-9;
-
-/// The elements that may hold a point, ascending by id, and how far it has come with them.
-struct Candidates {
-  std::array<LocalIndex, most_candidates> element;
-  std::size_t count = 0, next = 0;
-  LocalIndex take() { return next < count ? element[next++] : no_index; }
-};
 
 void write_inside(const ElementSet& elements, LocalIndex at, const Vec3& xi, std::size_t work, Placement& place) {
   const auto e = static_cast<std::size_t>(at);
@@ -35,38 +29,80 @@ void write_inside(const ElementSet& elements, LocalIndex at, const Vec3& xi, std
   place.kind = elements.kind(at), place.state = PlaceState::inside, place.work = static_cast<std::uint8_t>(work);
 }
 
+/// Whether a plane parallel to two of the three directions of a hexahedron has the point on one side and all corners on
+/// the other, by more than any tolerance: then it is outside, whatever Newton does.
+bool plainly_outside(const ElementSet& elements, LocalIndex e, const Vec3& point, double tolerance) {
+  const LocalIndex* const nodes = elements.nodes_of(e);
+  std::array<Vec3, 8> x;
+  for (std::size_t a = 0; a < 8; ++a) x[a] = elements.x[static_cast<std::size_t>(nodes[a])] - point;
+  const Vec3 xi = (x[1] + x[2] + x[5] + x[6]) - (x[0] + x[3] + x[4] + x[7]);
+  const Vec3 eta = (x[2] + x[3] + x[6] + x[7]) - (x[0] + x[1] + x[4] + x[5]);
+  const Vec3 zeta = (x[4] + x[5] + x[6] + x[7]) - (x[0] + x[1] + x[2] + x[3]);
+  for (const Vec3& normal : {cross(eta, zeta), cross(zeta, xi), cross(xi, eta)}) {
+    double least = infinite, greatest = -infinite;
+    for (const Vec3& corner : x) {
+      const double height = dot(normal, corner);
+      least = std::min(least, height), greatest = std::max(greatest, height);
+    }
+    const double room = (1e-2 + 4 * tolerance) * (greatest - least);
+    if (least > room || greatest < -room) return true;
+  }
+  return false;
+}
+
+/// Points go in block by block; tasks (a point in a hexahedron) wait until there are enough to work on side by side, so
+/// a block may be finished together with the next. finish() is to be called at the end.
 class Placer {
  public:
   using Points = std::array<const Vec3*, block_points>;
   using Places = std::array<Placement*, block_points>;
 
   Placer(const ElementSet& elements, const BoxTree& tree, double reach, const PlaceRules& rules)
-      : elements_(elements), tree_(tree), reach_(reach), rules_(rules), all_hexahedra_(elements.hexahedra()) {}
+      : elements_(elements), tree_(tree), reach_(reach), rules_(rules), all_hexahedra_(elements.hexahedra()) {
+    for (std::size_t k = 0; k < states; ++k) free_[k] = static_cast<std::uint8_t>(k);
+  }
 
   void place(const Points& points, const Places& places, std::size_t count) {
     if (!find_leaves(points, count)) return place_halves(points, places, count);
-    points_ = &points, places_ = &places;
-    waiting_ = 0;
     for (std::size_t i = 0; i < count; ++i) {
-      best_[i] = {infinite, no_index, {}};
-      done_[i] = !find_candidates(i);
-      if (done_[i])
+      if (free_count_ == 0) run(waiting_);
+      const std::uint8_t s = free_[--free_count_];
+      State& state = states_[s];
+      state.point = points[i], state.place = places[i];
+      state.overshoot = infinite, state.element = no_index;
+      if (find_candidates(state)) {
+        advance(s);
+      } else {
         place_one(*points[i], *places[i]);
-      else
-        advance(i);
-    }
-    // The last tasks are made up of copies.
-    while (waiting_ > 0) run(std::min(waiting_, hex_lanes));
-    for (std::size_t i = 0; i < count; ++i) {
-      if (done_[i]) continue;
-      if (best_[i].element == no_index)
-        *places[i] = place_nearest(elements_, tree_, *points[i], reach_, rules_);
-      else
-        *places[i] = in_element(elements_, best_[i].element, *points[i], best_[i].xi);
+        release(s);
+      }
+      if (waiting_ >= hex_lanes) run(hex_lanes);
     }
   }
 
+  void finish() {
+    while (waiting_ > 0) run(std::min(waiting_, hex_lanes));
+  }
+
  private:
+  static constexpr std::size_t states = 2 * hex_lanes;
+
+  /// A point on its way: the elements that may hold it, ascending by id, and the best of those tried, in the manner of
+  /// place_inside.
+  struct State {
+    const Vec3* point;
+    Placement* place;
+    std::array<LocalIndex, most_candidates> candidate;
+    std::size_t count, next;
+    double overshoot;
+    LocalIndex element;
+    Vec3 xi;
+  };
+  struct Queued {
+    LocalIndex element;
+    std::uint8_t state;
+  };
+
   bool find_leaves(const Points& points, std::size_t count) {
     Box around;
     for (std::size_t i = 0; i < count; ++i) around.add(*points[i]);
@@ -87,18 +123,17 @@ class Placer {
   }
 
   /// False if there are too many.
-  bool find_candidates(std::size_t i) {
-    const BoxTree::LeafPoint point = tree_.leaf_point(*(*points_)[i]);
-    Candidates& found = candidates_[i];
-    found.count = found.next = 0;
+  bool find_candidates(State& state) {
+    const BoxTree::LeafPoint point = tree_.leaf_point(*state.point);
+    state.count = state.next = 0;
     for (const LocalIndex leaf : leaves_)
       for (unsigned hits = tree_.hits(leaf, point); hits != 0; hits &= hits - 1) {
-        if (found.count == most_candidates) return false;
+        if (state.count == most_candidates) return false;
         const LocalIndex e = tree_.in_leaf(leaf, std::countr_zero(hits));
-        std::size_t k = found.count++;
-        for (const GlobalId id = elements_.id(e); k > 0 && elements_.id(found.element[k - 1]) > id; --k)
-          found.element[k] = found.element[k - 1];
-        found.element[k] = e;
+        std::size_t k = state.count++;
+        for (const GlobalId id = elements_.id(e); k > 0 && elements_.id(state.candidate[k - 1]) > id; --k)
+          state.candidate[k] = state.candidate[k - 1];
+        state.candidate[k] = e;
       }
     return true;
   }
@@ -111,85 +146,84 @@ class Placer {
     place.work = 255;
   }
 
-  /// Queues the next hexahedron that may hold the point; others are tried on the way.
-  void advance(std::size_t i) {
-    while (true) {
-      const LocalIndex candidate = candidates_[i].take();
-      if (candidate == no_index) return;
+  /// Queues the next hexahedron that may hold the point; others are tried on the way. Settles the point if none is
+  /// left.
+  void advance(std::uint8_t s) {
+    State& state = states_[s];
+    while (state.next < state.count) {
+      const LocalIndex candidate = state.candidate[state.next++];
       if (all_hexahedra_ || elements_.kind(candidate) == ElementKind::hex8) {
-        queue_[waiting_++] = {i, candidate};
+        queue_[waiting_++] = {candidate, s};
         return;
       }
-      if (try_alone(i, candidate)) return;
+      if (try_alone(state, candidate)) break;
     }
+    if (state.element == no_index)
+      *state.place = place_nearest(elements_, tree_, *state.point, reach_, rules_);
+    else
+      *state.place = in_element(elements_, state.element, *state.point, state.xi);
+    release(s);
   }
+
+  void release(std::uint8_t s) { free_[free_count_++] = s; }
 
   /// By the scalar inverse map. True if the search for the point is over.
-  bool try_alone(std::size_t i, LocalIndex candidate) {
+  bool try_alone(State& state, LocalIndex candidate) {
     const ElementKind kind = elements_.kind(candidate);
     if (topology(kind).dimension != 3) return false;
-    const InverseMap inverse = inverse_map(kind, CornerList(elements_, candidate).span(), *(*points_)[i]);
-    return inverse.converged && take(i, candidate, overshoot(kind, inverse.xi), inverse.xi);
+    const InverseMap inverse = inverse_map(kind, CornerList(elements_, candidate).span(), *state.point);
+    return inverse.converged && take(state, candidate, overshoot(kind, inverse.xi), inverse.xi);
   }
 
-  bool take(std::size_t i, LocalIndex candidate, double outside, const Vec3& xi) {
-    if (outside > 2 * rules_.tolerance || !(outside < best_[i].overshoot)) return false;
-    best_[i] = {outside, candidate, xi};
+  bool take(State& state, LocalIndex candidate, double outside, const Vec3& xi) {
+    if (outside > 2 * rules_.tolerance || !(outside < state.overshoot)) return false;
+    state.overshoot = outside, state.element = candidate, state.xi = xi;
     return ends_search(outside, rules_);
   }
 
+  /// The last `count` tasks; lanes that are left are filled with copies.
   void run(std::size_t count) {
     std::array<HexTask, hex_lanes> tasks;
     std::array<Queued, hex_lanes> queued;
+    count = std::min(count, hex_lanes);
     for (std::size_t l = 0; l < hex_lanes; ++l) {
       queued[l] = queue_[waiting_ - 1 - std::min(l, count - 1)];
-      tasks[l] = {elements_.nodes_of(queued[l].element), (*points_)[queued[l].point]};
+      tasks[l] = {elements_.nodes_of(queued[l].element), states_[queued[l].state].point};
     }
     waiting_ -= count;
     HexPlaces at;
     place_in_hexahedra(elements_.x.data(), tasks, at);
     for (std::size_t l = 0; l < count; ++l) {
-      const std::size_t i = queued[l].point;
+      State& state = states_[queued[l].state];
       if (!at.converged[l]) {
-        if (!try_alone(i, queued[l].element)) advance(i);
-      } else if (take(i, queued[l].element, at.overshoot[l], at.xi[l])) {
-        write_inside(elements_, queued[l].element, at.xi[l], candidates_[i].next, *(*places_)[i]);
-        done_[i] = true;
+        const bool outside = plainly_outside(elements_, queued[l].element, *state.point, rules_.tolerance);
+        if (!outside && try_alone(state, queued[l].element)) state.next = state.count;
+        advance(queued[l].state);
+      } else if (take(state, queued[l].element, at.overshoot[l], at.xi[l])) {
+        write_inside(elements_, queued[l].element, at.xi[l], state.next, *state.place);
+        release(queued[l].state);
       } else {
-        advance(i);
+        advance(queued[l].state);
       }
     }
   }
 
-  struct Queued {
-    std::size_t point;
-    LocalIndex element;
-  };
-
-  /// The best element for a point so far, in the manner of place_inside.
-  struct Best {
-    double overshoot;
-    LocalIndex element;
-    Vec3 xi;
-  };
   const ElementSet& elements_;
   const BoxTree& tree_;
   double reach_;
   PlaceRules rules_;
   bool all_hexahedra_;
   std::vector<LocalIndex> leaves_, many_;
-  const Points* points_ = nullptr;
-  const Places* places_ = nullptr;
-  std::array<Candidates, block_points> candidates_;
-  std::array<Best, block_points> best_;
-  std::array<bool, block_points> done_;
-  std::array<Queued, block_points + hex_lanes> queue_;
+  std::array<State, states> states_;
+  std::array<std::uint8_t, states> free_;
+  std::size_t free_count_ = states;
+  std::array<Queued, states> queue_;
   std::size_t waiting_ = 0;
 };
 
-/// The diagonal that blocks of points may have if points that follow each other are near each other, as the nodes of
-/// most meshes are: by the median of some blocks beside that of some boxes. Else 0. Costs no accuracy if it errs.
-double ordered_diagonal(std::span<const Vec3> points, std::span<const Box> boxes) {
+/// The length that blocks of points may have if points that follow each other are near each other, as the nodes of most
+/// meshes are: by the median of some blocks beside that of some boxes. Else 0. Costs no accuracy if it errs.
+double ordered_length(std::span<const Vec3> points, std::span<const Box> boxes) {
   constexpr std::size_t samples = 33;
   if (points.size() < samples * block_points || boxes.size() < samples) return 0;
   std::array<double, samples> blocks, sizes;
@@ -204,31 +238,33 @@ double ordered_diagonal(std::span<const Vec3> points, std::span<const Box> boxes
     std::nth_element(values.begin(), values.begin() + samples / 2, values.end());
     return values[samples / 2];
   };
-  const double most = 16 * median(sizes);
-  return median(blocks) < most ? most : 0;
+  const double size = median(sizes);
+  return median(blocks) < 16 * size ? 3 * size : 0;
 }
 
-/// In blocks that end early where the next point would make them larger than `most`.
+/// In blocks that end early where the next point is farther than `most` from the first.
 template <typename At>
 void place_in_order(Placer& placer, std::span<const Vec3> points, std::span<Placement> places, std::size_t count,
                     double most, At at) {
   Placer::Points block;
   Placer::Places into;
   std::size_t in_block = 0;
-  Box around;
   for (std::size_t k = 0; k < count; ++k) {
     const std::size_t i = at(k);
-    Box larger = around;
-    larger.add(points[i]);
-    if (in_block == block_points || (in_block > 0 && larger.diagonal() > most)) {
-      placer.place(block, into, in_block);
-      in_block = 0, larger = Box{points[i], points[i]};
+    if (k + ahead < count) {
+      __builtin_prefetch(&points[at(k + ahead)]);
+      __builtin_prefetch(&places[at(k + ahead)], 1);
     }
-    around = larger;
+    if (in_block == block_points) placer.place(block, into, in_block), in_block = 0;
+    if (in_block > 0) {
+      const Vec3 away = points[i] - *block[0];
+      if (dot(away, away) > most * most) placer.place(block, into, in_block), in_block = 0;
+    }
     block[in_block] = &points[i], into[in_block] = &places[i];
     ++in_block;
   }
   if (in_block > 0) placer.place(block, into, in_block);
+  placer.finish();
 }
 
 }  // namespace
@@ -236,17 +272,16 @@ void place_in_order(Placer& placer, std::span<const Vec3> points, std::span<Plac
 void place_many(const ElementSet& elements, const BoxTree& tree, std::span<const Vec3> points, double reach,
                 const PlaceRules& rules, std::span<Placement> places) {
   Placer placer(elements, tree, reach, rules);
-  if (const double most = ordered_diagonal(points, elements.boxes); most > 0) {
+  if (const double most = ordered_length(points, elements.boxes); most > 0) {
     place_in_order(placer, points, places, points.size(), most, [](std::size_t k) { return k; });
     return;
   }
   Box around;
   for (const Vec3& p : points) around.add(p);
-  std::vector<HilbertPlace> order =
-      HilbertCurve(around).places(points.size(), [&](std::size_t i) { return points[i]; });
-  sort_along_curve(order);
+  const std::vector<LocalIndex> order =
+      HilbertCurve(around).order(points.size(), [&](std::size_t i) { return points[i]; });
   place_in_order(placer, points, places, points.size(), infinite,
-                 [&](std::size_t k) { return static_cast<std::size_t>(order[k].index); });
+                 [&](std::size_t k) { return static_cast<std::size_t>(order[k]); });
 }
 
 bool place_again(const ElementSet& elements, std::span<const Vec3> points, std::span<LocalIndex> held,
@@ -291,18 +326,17 @@ void place_rest(const ElementSet& elements, const BoxTree& tree, std::span<const
   std::vector<std::size_t> rest;
   for (std::size_t i = 0; i < points.size(); ++i)
     if (held[i] == no_index) rest.push_back(i);
-  const double most = ordered_diagonal(points, elements.boxes);
+  const double most = ordered_length(points, elements.boxes);
   if (most > 0) {
     place_in_order(placer, points, places, rest.size(), most, [&](std::size_t k) { return rest[k]; });
     return;
   }
   Box around;
   for (const std::size_t i : rest) around.add(points[i]);
-  std::vector<HilbertPlace> order =
-      HilbertCurve(around).places(rest.size(), [&](std::size_t k) { return points[rest[k]]; });
-  sort_along_curve(order);
+  const std::vector<LocalIndex> order =
+      HilbertCurve(around).order(rest.size(), [&](std::size_t k) { return points[rest[k]]; });
   place_in_order(placer, points, places, rest.size(), infinite,
-                 [&](std::size_t k) { return rest[static_cast<std::size_t>(order[k].index)]; });
+                 [&](std::size_t k) { return rest[static_cast<std::size_t>(order[k])]; });
 }
 
 }  // namespace tenon::transfer

@@ -77,20 +77,40 @@ void HilbertCurve::codes_of(const EightCells& cells, std::array<std::uint64_t, 8
   for (std::size_t k = 0; k < 8; ++k) codes[k] = interleaved(x[0][k], x[1][k], x[2][k]);
 }
 
-// A radix sort of 48-bit codes, byte by byte, all bytes counted at once; bytes in which all agree are skipped.
-void sort_along_curve(std::vector<HilbertPlace>& places) {
-  constexpr std::size_t bytes = 6;
+// A radix sort by the upper half of the 48 bits, byte by byte, all bytes counted at once; bytes in which all agree are
+// skipped. Then few have neighbours with the same half: those are sorted by the rest.
+std::vector<LocalIndex> order_of_codes(const std::vector<std::uint64_t>& codes) {
+  constexpr std::size_t bytes = 3;
+  constexpr int half = 24;
+  const std::size_t count = codes.size();
   std::array<std::array<std::size_t, 256>, bytes> begin{};
-  for (const HilbertPlace& p : places)
-    for (std::size_t b = 0; b < bytes; ++b) ++begin[b][p.code >> (8 * b) & 0xff];
-  std::vector<HilbertPlace> other(places.size());
+  std::vector<std::uint64_t> keys(count), other(count);  // half of a code, and its index
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint64_t upper = codes[i] >> half;
+    keys[i] = upper << 32 | i;
+    for (std::size_t b = 0; b < bytes; ++b) ++begin[b][upper >> (8 * b) & 0xff];
+  }
   for (std::size_t b = 0; b < bytes; ++b) {
     auto& next = begin[b];
-    if (std::find(next.begin(), next.end(), places.size()) != next.end()) continue;
+    if (std::find(next.begin(), next.end(), count) != next.end()) continue;
     std::exclusive_scan(next.begin(), next.end(), next.begin(), std::size_t{0});
-    for (const HilbertPlace& p : places) other[next[p.code >> (8 * b) & 0xff]++] = p;
-    places.swap(other);
+    for (const std::uint64_t key : keys) other[next[key >> (32 + 8 * b) & 0xff]++] = key;
+    keys.swap(other);
   }
+  const auto index = [](std::uint64_t key) { return static_cast<std::size_t>(key & 0xffffffff); };
+  const auto before = [&](std::uint64_t a, std::uint64_t b) {
+    const std::uint64_t code_a = codes[index(a)], code_b = codes[index(b)];
+    return code_a != code_b ? code_a < code_b : a < b;
+  };
+  for (std::size_t first = 0, last; first < count; first = last) {
+    for (last = first + 1; last < count && keys[last] >> 32 == keys[first] >> 32;) ++last;
+    if (last > first + 1)
+      std::sort(keys.begin() + static_cast<std::ptrdiff_t>(first), keys.begin() + static_cast<std::ptrdiff_t>(last),
+                before);
+  }
+  std::vector<LocalIndex> order(count);
+  for (std::size_t i = 0; i < count; ++i) order[i] = static_cast<LocalIndex>(index(keys[i]));
+  return order;
 }
 
 }  // namespace tenon

@@ -13,12 +13,6 @@
 
 namespace tenon {
 
-/// A point's place on the curve.
-struct HilbertPlace {
-  std::uint64_t code;
-  LocalIndex index;
-};
-
 /// The curve through 2^48 cubic cells over a box. Unlike Morton's it does not jump, so neighbours along it make compact
 /// groups.
 class HilbertCurve {
@@ -26,9 +20,9 @@ class HilbertCurve {
   explicit HilbertCurve(const Box& bounds);
   /// Points outside count as on the bounds; those that are not finite come first.
   std::uint64_t code(const Vec3& x) const;
-  /// The codes of many points, point(i) for i < count, eight at a time: the same as by `code`.
+  /// The points point(i), i < count, in order along the curve; those in the same cell stay in their order.
   template <typename Point>
-  std::vector<HilbertPlace> places(std::size_t count, Point&& point) const;
+  std::vector<LocalIndex> order(std::size_t count, Point&& point) const;
 
  private:
   /// Cells of eight points, coordinate by coordinate.
@@ -44,11 +38,14 @@ class HilbertCurve {
   double scale_ = 0;
 };
 
+/// Indices of codes in ascending order; equal ones stay in their order.
+std::vector<LocalIndex> order_of_codes(const std::vector<std::uint64_t>& codes);
+
 template <typename Point>
-std::vector<HilbertPlace> HilbertCurve::places(std::size_t count, Point&& point) const {
-  std::vector<HilbertPlace> result(count);
+std::vector<LocalIndex> HilbertCurve::order(std::size_t count, Point&& point) const {
+  std::vector<std::uint64_t> codes(count);
   EightCells cells{};
-  std::array<std::uint64_t, 8> codes;
+  std::array<std::uint64_t, 8> eight;
   for (std::size_t first = 0; first < count; first += 8) {
     const std::size_t here = std::min<std::size_t>(8, count - first);
     for (std::size_t k = 0; k < here; ++k) {
@@ -56,13 +53,10 @@ std::vector<HilbertPlace> HilbertCurve::places(std::size_t count, Point&& point)
       const bool finite = is_finite(x);
       for (std::size_t c = 0; c < 3; ++c) cells[c][k] = finite ? cell(x, c) : 0;
     }
-    codes_of(cells, codes);
-    for (std::size_t k = 0; k < here; ++k) result[first + k] = {codes[k], static_cast<LocalIndex>(first + k)};
+    codes_of(cells, eight);
+    std::copy_n(eight.begin(), here, codes.begin() + static_cast<std::ptrdiff_t>(first));
   }
-  return result;
+  return order_of_codes(codes);
 }
-
-/// Stable: equal codes stay in their order.
-void sort_along_curve(std::vector<HilbertPlace>& places);
 
 }  // namespace tenon

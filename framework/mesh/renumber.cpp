@@ -51,17 +51,13 @@ Order shuffled(std::size_t size, std::uint64_t seed) {
 
 Order along_curve(const MeshData& mesh, const BlockData& block, const HilbertCurve& curve) {
   const std::size_t nodes = nodes_of(block);
-  std::vector<HilbertPlace> places(block.size());
-  for (std::size_t e = 0; e < block.size(); ++e) {
+  const std::vector<LocalIndex> places = curve.order(block.size(), [&](std::size_t e) {
     Vec3 centre{};
     for (std::size_t i = 0; i < nodes; ++i)
       centre = centre + mesh.coordinates[static_cast<std::size_t>(block.connectivity[e * nodes + i])];
-    places[e] = {curve.code((1.0 / static_cast<double>(nodes)) * centre), static_cast<LocalIndex>(e)};
-  }
-  sort_along_curve(places);
-  Order order(places.size());
-  std::transform(places.begin(), places.end(), order.begin(), [](const HilbertPlace& p) { return p.index; });
-  return order;
+    return (1.0 / static_cast<double>(nodes)) * centre;
+  });
+  return Order(places.begin(), places.end());
 }
 
 template <typename T>

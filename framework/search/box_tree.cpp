@@ -12,22 +12,14 @@ namespace {
 
 constexpr float float_infinity = std::numeric_limits<float>::infinity();
 
-/// The float next to f away from zero; zero and infinity stay.
-float outward(float f) {
-  return f == 0 || !std::isfinite(f) ? f : std::bit_cast<float>(std::bit_cast<std::uint32_t>(f) + 1);
-}
-/// The float next to f towards zero, which is none of zero and infinity.
-float inward(float f) {
-  return std::bit_cast<float>(std::bit_cast<std::uint32_t>(f) - 1);
-}
+/// Below x, and above it, by the rounding of floats and a little more.
+constexpr float rounding = 1.5f * std::numeric_limits<float>::epsilon();
 constexpr float smallest = std::numeric_limits<float>::denorm_min();
 
 float rounded_down(double x) {
   const float f = static_cast<float>(x);
-  if (!(static_cast<double>(f) > x)) return f;
-  if (f == 0) return -smallest;
-  if (f > std::numeric_limits<float>::max()) return std::numeric_limits<float>::max();
-  return f > 0 ? inward(f) : outward(f);
+  const float below = f - (std::abs(f) * rounding + smallest);
+  return x >= std::numeric_limits<float>::max() ? std::numeric_limits<float>::max() : below;
 }
 float rounded_up(double x) {
   return -rounded_down(-x);
@@ -63,11 +55,7 @@ void BoxTree::build(std::span<const Box> boxes) {
   const Box bounds = bounds_of_centres(boxes);
   origin_ = bounds.empty() ? Vec3{} : centre(bounds);
   boxes_.assign(boxes.begin(), boxes.end());
-  std::vector<HilbertPlace> codes =
-      HilbertCurve(bounds).places(boxes.size(), [&](std::size_t i) { return centre(boxes[i]); });
-  sort_along_curve(codes);
-  order_.resize(boxes.size());
-  for (std::size_t i = 0; i < codes.size(); ++i) order_[i] = codes[i].index;
+  order_ = HilbertCurve(bounds).order(boxes.size(), [&](std::size_t i) { return centre(boxes[i]); });
   levels_ = 0;
   std::size_t total = 0;
   for (std::size_t count = boxes.size(); count > 0 && (levels_ == 0 || count > 1); ++levels_) {

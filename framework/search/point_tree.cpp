@@ -169,13 +169,7 @@ std::vector<LocalIndex> order_along_curve(std::span<const Vec3> points) {
   Box bounds;
   for (const Vec3& x : points)
     if (std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2])) bounds.add(x);
-  const HilbertCurve curve(bounds);
-  std::vector<HilbertPlace> places(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) places[i] = {curve.code(points[i]), static_cast<LocalIndex>(i)};
-  sort_along_curve(places);
-  std::vector<LocalIndex> order(points.size());
-  for (std::size_t i = 0; i < places.size(); ++i) order[i] = places[i].index;
-  return order;
+  return HilbertCurve(bounds).order(points.size(), [&](std::size_t i) { return points[i]; });
 }
 
 }  // namespace tenon
