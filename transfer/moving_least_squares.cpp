@@ -16,11 +16,13 @@ namespace tenon::transfer {
 
 namespace {
 
-/// Before the terms of a row on its way.
+/// Before the terms of a row on its way, in the room of one of them.
 struct RowHead {
-  FitOutcome fit;
-  std::int64_t terms = 0;
+  double distance = 0, spacing = 0;
+  std::int32_t terms = 0;
+  bool exact = false, deficient = false;
 };
+static_assert(sizeof(RowHead) == sizeof(Term));
 
 /// The weights of all points, and what the fits found.
 struct FittedRows {
@@ -34,15 +36,14 @@ void fit_row(const Vec3& x, std::span<const NearPoint> near, bool all, const Fit
   std::array<double, max_neighbours> weight;
   std::array<Term, max_neighbours> terms;
   for (std::size_t j = 0; j < near.size(); ++j) relative[j] = near[j].point->x - x;
-  RowHead head;
-  head.fit = linear_fit(std::span(relative).first(near.size()), all, rules, weight);
+  const FitOutcome fit = linear_fit(std::span(relative).first(near.size()), all, rules, weight);
   std::size_t count = 0;
   for (std::size_t j = 0; j < near.size(); ++j)
     if (weight[j] != 0) {
       const CloudPoint& p = *near[j].point;
       terms[count++] = {p.id, weight[j], p.owner, p.at_owner};
     }
-  head.terms = static_cast<std::int64_t>(count);
+  const RowHead head{fit.distance, fit.spacing, static_cast<std::int32_t>(count), fit.exact, fit.deficient};
   std::memcpy(result.data(), &head, sizeof head);
   std::memcpy(result.data() + sizeof head, terms.data(), count * sizeof(Term));
 }
@@ -50,29 +51,29 @@ void fit_row(const Vec3& x, std::span<const NearPoint> near, bool all, const Fit
 /// Collective. One fit for each point, to `neighbours` points of the cloud.
 FittedRows fit_to(const Communicator& comm, std::span<const CloudPoint> cloud, std::span<const Vec3> points,
                   int neighbours, bool all, const FitRules& rules, const std::string& name) {
-  const std::size_t bytes = sizeof(RowHead) + static_cast<std::size_t>(neighbours) * sizeof(Term);
-  std::vector<std::byte> data(points.size() * bytes);
+  // A head and room for all terms that there can be; then the terms move together, in their place.
+  const auto width = static_cast<std::size_t>(neighbours) + 1;
+  FittedRows fitted;
+  std::vector<Term>& terms = fitted.rows.terms;
+  terms.resize(points.size() * width);
   for_each_with_nearest(
-      comm, cloud, points, neighbours, bytes, data,
+      comm, cloud, points, neighbours, width * sizeof(Term), std::as_writable_bytes(std::span(terms)),
       [&](const Vec3& x, std::span<const NearPoint> near, std::span<std::byte> result) {
         fit_row(x, near, all, rules, result);
       },
       "transfer '" + name + "'");
-  FittedRows fitted;
   fitted.rows.begin.reserve(points.size() + 1);
   fitted.fits.reserve(points.size());
+  auto end = terms.begin();
   for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto row = terms.begin() + static_cast<std::ptrdiff_t>(i * width);
     RowHead head;
-    std::memcpy(&head, data.data() + i * bytes, sizeof head);
-    fitted.rows.begin.push_back(fitted.rows.begin.back() + head.terms);
-    fitted.fits.push_back(head.fit);
+    std::memcpy(static_cast<void*>(&head), static_cast<const void*>(&*row), sizeof head);
+    fitted.fits.push_back({head.distance, head.spacing, head.exact, head.deficient});
+    end = std::copy(row + 1, row + 1 + head.terms, end);
+    fitted.rows.begin.push_back(end - terms.begin());
   }
-  fitted.rows.terms.resize(static_cast<std::size_t>(fitted.rows.begin.back()));
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const auto first = static_cast<std::size_t>(fitted.rows.begin[i]);
-    const std::size_t count = fitted.rows.row(i).size() * sizeof(Term);
-    if (count > 0) std::memcpy(fitted.rows.terms.data() + first, data.data() + i * bytes + sizeof(RowHead), count);
-  }
+  terms.erase(end, terms.end());
   return fitted;
 }
 

@@ -55,7 +55,8 @@ class PointTree {
   void select(std::size_t k, std::vector<Neighbour>& found) const;
   void order_by_id(std::vector<Neighbour>& found) const;
   void collect(const Vec3& centre, double radius, Candidates& candidates) const;
-  void take_nearest(Candidates& from, const Vec3& x, std::size_t k, double limit, std::vector<Neighbour>& found) const;
+  void take_nearest(Candidates& from, const Vec3& x, std::size_t k, double limit, double guess,
+                    std::vector<Neighbour>& found) const;
 
   std::vector<Leaf> leaves_;
   std::vector<GlobalId> ids_;
