@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <numeric>
+#include <utility>
 
 #include "framework/mesh/assemble.hpp"
 
@@ -22,6 +24,28 @@ std::uint64_t mix(std::uint64_t z) {
 
 double uniform(std::uint64_t seed, std::uint64_t id, std::uint64_t component) {
   return static_cast<double>(mix(mix(seed) + 4 * id + component) >> 11) * 0x1p-53;
+}
+
+/// Makes hex20 of hex8.
+void add_middle_nodes(MeshData& mesh) {
+  constexpr std::size_t edges[12][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6},
+                                        {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
+  BlockData& block = mesh.blocks.front();
+  const std::vector<GlobalId> corners = std::exchange(block.connectivity, {});
+  block.kind = ElementKind::hex20;
+  std::map<std::pair<GlobalId, GlobalId>, GlobalId> middle;
+  for (std::size_t e = 0; e < block.size(); ++e) {
+    const GlobalId* const from = corners.data() + 8 * e;
+    block.connectivity.insert(block.connectivity.end(), from, from + 8);
+    for (const auto& [a, b] : edges) {
+      const auto next = static_cast<GlobalId>(mesh.coordinates.size());
+      const auto [place, added] = middle.try_emplace(std::minmax(from[a], from[b]), next);
+      if (added)
+        mesh.coordinates.push_back(0.5 * (mesh.coordinates[static_cast<std::size_t>(from[a])] +
+                                          mesh.coordinates[static_cast<std::size_t>(from[b])]));
+      block.connectivity.push_back(place->second);
+    }
+  }
 }
 
 /// Collective. The elements of this rank's slab of a cube that every rank has whole.
@@ -55,8 +79,10 @@ std::shared_ptr<const Mesh> cube(int n, std::uint64_t seed, const CubeShape& sha
   box.grading = {shape.grading, shape.grading, shape.grading};
   box.distortion = 0.2;
   box.seed = seed;
-  box.tetrahedra = shape.tetrahedra;
-  return slab_of(generate(box), n, shape.slabs == Slabs::x ? 0 : 1);
+  box.tetrahedra = shape.kind == ElementKind::tet4;
+  MeshData mesh = generate(box);
+  if (shape.kind == ElementKind::hex20) add_middle_nodes(mesh);
+  return slab_of(mesh, n, shape.slabs == Slabs::x ? 0 : 1);
 }
 
 std::shared_ptr<const Mesh> sphere_surface(int n) {

@@ -33,11 +33,11 @@ struct Targets {
 enum class Slabs { x, y };
 
 struct CubeShape {
-  double grading = 1;  ///< ratio of the last to the first interval along each axis
-  bool tetrahedra = false;
+  double grading = 1;                    ///< ratio of the last to the first interval along each axis
+  ElementKind kind = ElementKind::hex8;  ///< hex8, tet4 (six in each cell) or hex20 with straight edges
   Slabs slabs = Slabs::x;
 };
-/// Collective. Unit cube of n^3 hexahedra, interior nodes moved at random by up to 0.2 h in each direction.
+/// Collective. Unit cube of n^3 cells, interior nodes moved at random by up to 0.2 h in each direction.
 std::shared_ptr<const Mesh> cube(int n, std::uint64_t seed, const CubeShape& shape = {});
 /// Collective. The outside of a ball of radius 1, quadrilaterals, n of them along each edge of the cube inside.
 std::shared_ptr<const Mesh> sphere_surface(int n);

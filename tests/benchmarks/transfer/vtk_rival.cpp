@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtk_rival.hpp"
 
-#include <vtkCellType.h>
 #include <vtkCharArray.h>
 #include <vtkDoubleArray.h>
 #include <vtkGenericCell.h>
@@ -24,6 +23,13 @@ void set_points(vtkPoints& to, std::span<const Vec3> from) {
   to.SetDataTypeToDouble();
   to.SetNumberOfPoints(static_cast<vtkIdType>(from.size()));
   for (std::size_t i = 0; i < from.size(); ++i) to.SetPoint(static_cast<vtkIdType>(i), from[i].data());
+}
+
+void keep(vtkGenericCell& cell, const std::array<double, 8>& weights, VtkMap& map, std::size_t i) {
+  for (int a = 0; a < cell.GetNumberOfPoints(); ++a) {
+    map.nodes[i][static_cast<std::size_t>(a)] = static_cast<LocalIndex>(cell.GetPointId(a));
+    map.weights[i][static_cast<std::size_t>(a)] = weights[static_cast<std::size_t>(a)];
+  }
 }
 
 }  // namespace
@@ -51,8 +57,7 @@ VtkRival::VtkRival(const Mesh& mesh, std::span<const Vec3> coordinates) : impl_(
       std::array<vtkIdType, 8> ids{};
       const std::span<const LocalIndex> nodes = block.nodes(e);
       std::ranges::copy(nodes, ids.begin());
-      impl_->grid->InsertNextCell(block.kind == ElementKind::hex8 ? VTK_HEXAHEDRON : VTK_TETRA,
-                                  static_cast<vtkIdType>(nodes.size()), ids.data());
+      impl_->grid->InsertNextCell(topology(block.kind).vtk_type, static_cast<vtkIdType>(nodes.size()), ids.data());
     }
 }
 
@@ -62,22 +67,36 @@ VtkMap VtkRival::locate(std::span<const Vec3> points) const {
   vtkNew<vtkStaticCellLocator> locator;
   locator->SetDataSet(impl_->grid);
   locator->BuildLocator();
-  VtkMap map;
-  map.nodes.resize(points.size());
-  map.weights.resize(points.size());
+  VtkMap map(points.size());
   vtkNew<vtkGenericCell> cell;
   std::array<double, 3> local{};
   std::array<double, 8> weights{};
   for (std::size_t i = 0; i < points.size(); ++i) {
     Vec3 x = points[i];
-    if (locator->FindCell(x.data(), 0, cell, local.data(), weights.data()) < 0) {
+    if (locator->FindCell(x.data(), 0, cell, local.data(), weights.data()) < 0)
       ++map.lost;
-      continue;
-    }
-    for (int a = 0; a < cell->GetNumberOfPoints(); ++a) {
-      map.nodes[i][static_cast<std::size_t>(a)] = static_cast<LocalIndex>(cell->GetPointId(a));
-      map.weights[i][static_cast<std::size_t>(a)] = weights[static_cast<std::size_t>(a)];
-    }
+    else
+      keep(*cell, weights, map, i);
+  }
+  return map;
+}
+
+VtkMap VtkRival::project(std::span<const Vec3> points) const {
+  vtkNew<vtkStaticCellLocator> locator;
+  locator->SetDataSet(impl_->grid);
+  locator->BuildLocator();
+  VtkMap map(points.size());
+  vtkNew<vtkGenericCell> cell;
+  std::array<double, 3> nearest{}, local{};
+  std::array<double, 8> weights{};
+  vtkIdType id = 0;
+  int part = 0;
+  double distance = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    locator->FindClosestPoint(points[i].data(), nearest.data(), cell, id, part, distance);
+    const std::array<double, 3> foot = nearest;
+    cell->EvaluatePosition(foot.data(), nearest.data(), part, local.data(), distance, weights.data());
+    keep(*cell, weights, map, i);
   }
   return map;
 }

@@ -62,11 +62,11 @@ Trial by_transfer(std::shared_ptr<const Mesh> source, Targets targets, FieldKind
   return {targets, set_up, [=](std::span<double> result) { (*map)->apply(*values, result, 1); }};
 }
 
-Way through(const std::string& name, Method method, FieldKind kind, bool tetrahedra = false) {
+Way through(const std::string& name, Method method, FieldKind kind, ElementKind kind_of_source = ElementKind::hex8) {
   return {"volume", name, [=](int n) {
             TransferOptions options;
             options.method = method;
-            return by_transfer(cube(n, 1, {.tetrahedra = tetrahedra}), target_nodes(n), kind, options);
+            return by_transfer(cube(n, 1, {.kind = kind_of_source}), target_nodes(n), kind, options);
           }};
 }
 
@@ -134,14 +134,17 @@ Way moving_least_squares() {
           }};
 }
 
-Way vtk_locator() {
-  return {"volume", "VTK static locator, weights kept", [](int n) {
-            const auto source = cube(n, 1);
-            const Targets targets = target_nodes(n);
+/// The weights of VTK's static cell locator, kept: of the cells that hold points, or of the nearest on a surface.
+Way vtk_locator(const std::string& panel) {
+  const bool surface = panel == "surface";
+  return {panel, surface ? "VTK nearest point, weights kept" : "VTK static locator, weights kept", [=](int n) {
+            const auto source = surface ? sphere_surface(n) : cube(n, 1);
+            const Targets targets = surface ? nodes_of("nodes", sphere_surface(n + n / 4)) : target_nodes(n);
             auto rival = std::make_shared<VtkRival>(*source, source->coordinates);
             auto map = std::make_shared<VtkMap>();
             auto values = std::make_shared<std::vector<double>>(sampled(source->coordinates, smooth_field));
-            return Trial{targets, [=] { *map = rival->locate(targets.points); },
+            return Trial{targets,
+                         [=] { *map = surface ? rival->project(targets.points) : rival->locate(targets.points); },
                          [=](std::span<double> result) { map->apply(*values, result); }};
           }};
 }
@@ -158,14 +161,16 @@ Way vtk_probe() {
 
 std::vector<Way> ways() {
   return {through("interpolate, hex8", Method::interpolate, FieldKind::point_value),
-          through("interpolate, tet4", Method::interpolate, FieldKind::point_value, true),
+          through("interpolate, tet4", Method::interpolate, FieldKind::point_value, ElementKind::tet4),
+          through("interpolate, hex20", Method::interpolate, FieldKind::point_value, ElementKind::hex20),
           through("conserve", Method::conserve, FieldKind::density),
           projection("project", false),
           projection("project, bounded", true),
           moving_least_squares(),
           nearest_projection(),
-          vtk_locator(),
-          vtk_probe()};
+          vtk_locator("volume"),
+          vtk_probe(),
+          vtk_locator("surface")};
 }
 
 /// Median of enough calls.
