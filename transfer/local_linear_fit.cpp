@@ -28,7 +28,7 @@ Vec3 multiply(const Symmetric& a, const Vec3& v) {
           a[5] * v[0] + a[4] * v[1] + a[2] * v[2]};
 }
 
-/// Eigenvalues and eigenvectors (columns of `vectors`, here rows of the array) by cyclic Jacobi rotations [GVL13, 8.5].
+/// Eigenvalues and eigenvectors (columns of `vectors`, here rows of the array) by cyclic Jacobi rotations [GV13, 8.5].
 void eigen(Symmetric a, Vec3& values, Matrix& vectors) {
   double m[3][3] = {{a[0], a[3], a[5]}, {a[3], a[1], a[4]}, {a[5], a[4], a[2]}};
   vectors = {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};

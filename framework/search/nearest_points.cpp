@@ -97,7 +97,8 @@ double first_reach(const Communicator& comm, std::span<const CloudPoint> cloud, 
   for (std::size_t s = 0; s < std::min(samples, cloud.size()); ++s)
     some.push_back(cloud[s * cloud.size() / std::min(samples, cloud.size())].x);
   std::vector<double> radii;
-  const int at_most = static_cast<int>(std::min(static_cast<std::size_t>(k), cloud.size()));
+  const auto wanted = static_cast<std::size_t>(k) + 1;  // each is its own nearest
+  const int at_most = static_cast<int>(std::min(wanted, cloud.size()));
   LocalCloud(cloud).visit_complete(some, at_most, infinity, [&](std::size_t, std::span<const NearPoint> near) {
     double squared = 0;
     for (const NearPoint& n : near) squared = std::max(squared, n.squared_distance);
