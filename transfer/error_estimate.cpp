@@ -140,7 +140,7 @@ double interpolation_error(const Partner& source, const Partner& target, const R
     const std::vector<Vec3> g = gathered(map, recovered_gradients(source, component));
     greatest = std::max(greatest, greatest_over_rows(target, map, source.location == Location::node, targets, x, g));
   }
-  return target.mesh->comm.max(greatest);
+  return target.comm().max(greatest);
 }
 
 }  // namespace tenon::transfer

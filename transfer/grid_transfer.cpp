@@ -14,14 +14,20 @@
 
 namespace tenon::transfer {
 
-namespace {
-
 [[noreturn]] void refuse(const std::string& name, const std::string& why) {
   throw Error(ExitCode::usage, fmt::format("transfer '{}': {}", name, why));
 }
 
+namespace {
+
+bool surfaces_only(const Mesh& mesh) {
+  return std::all_of(mesh.blocks.begin(), mesh.blocks.end(),
+                     [](const ElementBlock& block) { return topology(block.kind).dimension == 2; });
+}
+
 /// The method that the kind of the field asks for. Depends on arguments that are the same on every rank.
-Method choose_method(const FieldDescription& field, const TransferOptions& options, const std::string& name) {
+Method choose_method(const FieldDescription& field, const Grid& source, const TransferOptions& options,
+                     const std::string& name) {
   if (field.kind == FieldKind::flux)
     refuse(name,
            fmt::format("'{}' is a flux; fluxes belong to surfaces, which cannot be transferred: give a total or a "
@@ -29,7 +35,13 @@ Method choose_method(const FieldDescription& field, const TransferOptions& optio
                        field.name));
   const bool interpolated = field.kind == FieldKind::point_value;
   Method method = options.method;
-  if (method == Method::automatic) method = interpolated ? Method::interpolate : Method::conserve;
+  if (method == Method::automatic) {
+    method = interpolated ? Method::interpolate : Method::conserve;
+    if (interpolated && !source.mesh)
+      method = Method::moving_least_squares;
+    else if (interpolated && surfaces_only(*source.mesh))
+      method = Method::nearest_projection;
+  }
   const bool by_values = method == Method::interpolate || method == Method::nearest_projection ||
                          method == Method::moving_least_squares || method == Method::project;
   if (by_values && field.kind == FieldKind::total)
@@ -52,6 +64,8 @@ void check_options(const TransferOptions& options, const std::string& name) {
   if (!(options.tolerance >= 0 && options.tolerance < 0.1))
     refuse(name,
            fmt::format("tolerance {} is not a fraction of an element's size between 0 and 0.1", options.tolerance));
+  if (options.neighbours < 4 || options.neighbours > 64)
+    refuse(name, fmt::format("neighbours {} is not between 4 and 64", options.neighbours));
   if (!(options.greatest_distance >= 0))
     refuse(name, fmt::format("greatest distance {} m is negative", options.greatest_distance));
 }
@@ -100,9 +114,12 @@ Partner partner_of(const Grid& grid) {
   return partner;
 }
 
+}  // namespace
+
 void refuse_misses(const Misses& misses, const TransferOptions& options, const std::string& name) {
   const bool too_far = options.outside != OutsidePolicy::value && misses.greatest_distance > options.greatest_distance;
-  if (misses.outside == 0 || (options.outside != OutsidePolicy::error && !too_far)) return;
+  const bool refused = options.outside == OutsidePolicy::error && misses.outside > 0;
+  if (!refused && !too_far) return;
   const Vec3& x = misses.farthest;
   throw Error(
       ExitCode::geometry,
@@ -114,15 +131,13 @@ void refuse_misses(const Misses& misses, const TransferOptions& options, const s
                   too_far ? " or greatest distance" : ""));
 }
 
-}  // namespace
-
 Misses MissCounter::total(const Communicator& comm, GlobalId skipped) const {
   Misses misses;
   misses.targets = comm.sum(targets_);
   misses.skipped = skipped;
   misses.outside = comm.sum(outside_);
   const double greatest = comm.max(distance_);
-  if (greatest < 0) return misses;
+  if (!(greatest > 0)) return misses;
   misses.greatest_distance = greatest;
   const bool candidate = distance_ == greatest;
   const GlobalId first = comm.min(candidate ? id_ : std::numeric_limits<GlobalId>::max());
@@ -174,10 +189,10 @@ void GridTransfer::Impl::interpolate(bool again) {
   if (!source.mesh)
     refuse(name, fmt::format("{} has only points, no elements to interpolate in; use method moving_least_squares",
                              source.name()));
-  const bool projection = method == Method::nearest_projection;
-  const PlaceRules rules{options.tolerance, options.outside == OutsidePolicy::extrapolate && !projection};
+  const bool onto_surface = method == Method::nearest_projection;
+  const PlaceRules rules{options.tolerance, options.outside == OutsidePolicy::extrapolate && !onto_surface};
   if (!again) {
-    const ElementChoice choice = projection ? surface_choice(source, name) : source.choice;
+    const ElementChoice choice = onto_surface ? surface_choice(source, name) : source.choice;
     containers = containers_of(*source.mesh, source.coordinates, choice, rules.tolerance, name);
     locator = std::make_unique<Locator>(comm(), rules, options.moving, name + ".locate");
   } else {
@@ -189,16 +204,18 @@ void GridTransfer::Impl::interpolate(bool again) {
   const std::vector<Placement> places =
       again ? locator->find_again(containers, points, moved) : locator->find(containers, points);
   if (locator->decomposed()) moved = 0;
-  const bool drop = options.outside == OutsidePolicy::value;
+  const bool drop = options.outside == OutsidePolicy::value && !onto_surface;
   MissCounter counter;
   for (const LocalIndex item : target.items().owned) {
     const auto i = static_cast<std::size_t>(item);
-    counter.add(target.items().ids[i], points[i], places[i]);
+    // Meshes of the same surface do not match: to be beside the other is not to be outside.
+    counter.add(target.items().ids[i], points[i], places[i].distance, places[i].is_outside() && !onto_surface);
   }
   outside.clear();
   for (std::size_t i = 0; i < places.size(); ++i)
     if (places[i].is_outside())
-      outside.push_back({static_cast<LocalIndex>(i), status_of(places[i], drop), places[i].distance});
+      outside.push_back({static_cast<LocalIndex>(i), onto_surface ? PointStatus::inside : status_of(places[i], drop),
+                         places[i].distance});
   misses = counter.total(comm(), containers.skipped);
   refuse_misses(misses, options, name);
   const InterpolationSource from{containers.set, source.nodes, source.location, containers.set.stride,
@@ -248,6 +265,7 @@ bool GridTransfer::Impl::copy() {
 
 void GridTransfer::Impl::build(bool again) {
   copied = copy();
+  projection.reset();
   if (copied) {
     locator.reset();
   } else if (method == Method::copy) {
@@ -255,10 +273,15 @@ void GridTransfer::Impl::build(bool again) {
                              "and {} differ: use method automatic",
                              source.name(), target.name()));
   } else if (method == Method::conserve) {
-    conserve();
+    target.mesh ? conserve() : conserve_onto_points();
+  } else if (method == Method::project) {
+    project();
+  } else if (method == Method::moving_least_squares) {
+    fit();
   } else {
     interpolate(again && options.moving && locator != nullptr);
   }
+  if (options.moving && !locator) mean_size = mean_spacing(target);
   for (Partner* partner : {&source, &target}) {
     partner->built_fingerprint = fingerprint(partner->coordinates);
     if (options.moving) partner->built.assign(partner->coordinates.begin(), partner->coordinates.end());
@@ -276,6 +299,10 @@ void GridTransfer::Impl::apply(std::span<const TransferItem> fields) const {
     width += n;
   }
   ++applied;
+  if (projection) {
+    for (const TransferItem& f : fields) projection->apply(f.source, f.target, f.components);
+    return;
+  }
   if (map.direct()) {
     for (const TransferItem& f : fields) map.multiply(f.source, f.target, f.components);
     return;
@@ -304,10 +331,10 @@ GridTransfer::GridTransfer(const Grid& source, const Grid& target, const FieldDe
   impl_->name = std::move(name);
   impl_->field = field;
   impl_->options = options;
-  impl_->method = choose_method(field, options, impl_->name);
   check_options(options, impl_->name);
   check_grid(source, "source", impl_->name);
   check_grid(target, "target", impl_->name);
+  impl_->method = choose_method(field, source, options, impl_->name);
   impl_->source = partner_of(source);
   impl_->target = partner_of(target);
   impl_->build(false);
@@ -362,6 +389,7 @@ std::int64_t GridTransfer::memory() const {
     sum += bytes(p->built) + bytes(p->volumes) + p->nodes.memory() + p->elements.memory();
   const ElementSet& set = impl_->containers.set;
   sum += bytes(set.x) + bytes(set.nodes) + bytes(set.ids) + bytes(set.items) + bytes(set.boxes);
+  if (impl_->projection) sum += impl_->projection->memory();
   return sum + (impl_->locator ? impl_->locator->memory() : 0);
 }
 

@@ -42,6 +42,10 @@ struct TransferOptions {
   double greatest_distance = std::numeric_limits<double>::infinity();
   /// Points nearer than this fraction of an element's size count as inside.
   double tolerance = 1e-9;
+  /// Of project: keeps every value between the least and the greatest of the source values around it.
+  bool bounded = false;
+  /// Of moving_least_squares, and of what is conserved onto points: how many points each fit looks at.
+  int neighbours = 20;
   /// update() will be called often: keeps what makes it cheap (the decomposition, the tree, each point's element).
   bool moving = false;
 };

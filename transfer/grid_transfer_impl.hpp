@@ -9,6 +9,7 @@
 
 #include "framework/comm/directory.hpp"
 #include "transfer/grid_transfer.hpp"
+#include "transfer/projection.hpp"
 #include "transfer/rows.hpp"
 
 namespace tenon::transfer {
@@ -52,6 +53,7 @@ struct GridTransfer::Impl {
   Method method = Method::interpolate;
   Partner source, target;
   RowMap map;
+  std::unique_ptr<Projection> projection;  ///< instead of the map
   Misses misses;
   std::vector<OutsideItem> outside;
   std::int64_t built = 0, rigid = 0;
@@ -71,7 +73,10 @@ struct GridTransfer::Impl {
   const Communicator& comm() const { return target.comm(); }
   void build(bool again);
   void interpolate(bool again);
+  void project();
+  void fit();
   void conserve();
+  void conserve_onto_points();
   bool copy();
   void apply(std::span<const TransferItem> fields) const;
 };
@@ -80,24 +85,38 @@ struct GridTransfer::Impl {
 class MissCounter {
  public:
   void add(GlobalId id, const Vec3& point, const Placement& place) {
+    add(id, point, place.distance, place.is_outside());
+  }
+  void add(GlobalId id, const Vec3& point, double distance, bool outside) {
     ++targets_;
-    if (!place.is_outside()) return;
-    ++outside_;
+    outside_ += outside;
     // Points of one item stand in canonical order, and items on one rank ascend.
-    if (place.distance > distance_) distance_ = place.distance, id_ = id, point_ = point;
+    if (distance > distance_) distance_ = distance, id_ = id, point_ = point;
   }
   Misses total(const Communicator& comm, GlobalId skipped) const;
 
  private:
   std::int64_t targets_ = 0, outside_ = 0;
-  double distance_ = -1;
+  double distance_ = 0;
   GlobalId id_ = no_id;
   Vec3 point_{};
 };
 
+/// The rows, with those of some items (ascending) replaced by others, in order.
+Rows with_rows_replaced(const Rows& rows, std::span<const OutsideItem> items, const Rows& others);
+
+/// Throws Error(geometry) if the policy or the greatest distance does not allow for those misses.
+void refuse_misses(const Misses& misses, const TransferOptions& options, const std::string& name);
+
+/// Throws Error(usage): "transfer 'name': why".
+[[noreturn]] void refuse(const std::string& name, const std::string& why);
+
 /// Collective. Whether both sides have the same items at the same places (same ids), and if so where each target item's
 /// source is kept.
 std::optional<std::vector<DirectoryEntry>> matching_items(const Partner& source, const Partner& target);
+
+/// Collective. Edge of the cubes that as many items would be in the box of all, m.
+double mean_spacing(const Partner& partner);
 
 /// Collective. Whether both meshes have moved as one rigid body since their maps were built, to `tolerance` (m).
 bool moved_rigidly(const Partner& source, const Partner& target, double tolerance);

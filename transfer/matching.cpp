@@ -65,6 +65,18 @@ std::optional<std::vector<DirectoryEntry>> matching_items(const Partner& source,
   return entries;
 }
 
+double mean_spacing(const Partner& partner) {
+  std::array<double, 6> ends;
+  ends.fill(-std::numeric_limits<double>::infinity());
+  for (const Vec3& x : partner.coordinates)
+    for (std::size_t c = 0; c < 3; ++c) ends[c] = std::max(ends[c], -x[c]), ends[c + 3] = std::max(ends[c + 3], x[c]);
+  partner.comm().max(std::span<double>(ends));
+  const GlobalId count = global_items(partner);
+  if (count == 0) return 0;
+  const double volume = (ends[3] + ends[0]) * (ends[4] + ends[1]) * (ends[5] + ends[2]);
+  return std::cbrt(volume / static_cast<double>(count));
+}
+
 namespace {
 
 /// A rigid motion x -> rotation (x - from) + to; columns of the frames are orthonormal.

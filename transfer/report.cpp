@@ -16,6 +16,7 @@ struct Integral {
 
 /// Collective. Of the first component over the owned items: the sum of totals, the volume integral of others.
 Integral integral_of(const Partner& partner, std::span<const double> values, int components, bool total) {
+  if (!partner.mesh && !total) return {};  // points fill no volume
   if (!total && partner.volumes.size() != partner.items().ids.size())
     partner.volumes = item_volumes(*partner.mesh, partner.coordinates, partner.location);
   ExactSum sum, magnitude;
@@ -26,7 +27,7 @@ Integral integral_of(const Partner& partner, std::span<const double> values, int
     sum.add_product(value, volume);
     magnitude.add_product(std::abs(value), volume);
   }
-  return {partner.mesh->comm.sum(sum), partner.mesh->comm.sum(magnitude)};
+  return {partner.comm().sum(sum), partner.comm().sum(magnitude)};
 }
 
 }  // namespace
@@ -46,7 +47,7 @@ TransferReport GridTransfer::report(std::span<const double> source, std::span<co
   report.target_integral = to.value;
   const double difference = std::abs(to.value - from.value);
   report.mismatch = from.magnitude > 0 ? difference / from.magnitude : difference;
-  if (impl_->field.kind == FieldKind::point_value)
+  if (impl_->field.kind == FieldKind::point_value && impl_->source.mesh && !impl_->projection)
     report.error_estimate = interpolation_error(impl_->source, impl_->target, impl_->map, source, components);
   return report;
 }

@@ -89,7 +89,8 @@ void RowMap::take_gather(const Communicator& comm, const SlotTable& wanted, cons
   gather_ = ExchangePlan::from_owners(comm, wanted.owners(), wanted.indices(), into, name);
 }
 
-RowMap::RowMap(const Communicator& comm, const Rows& rows, const std::string& name) : begin_(rows.begin) {
+RowMap::RowMap(const Communicator& comm, const Rows& rows, const std::string& name, double empty_value)
+    : begin_(rows.begin), empty_value_(empty_value) {
   SlotTable wanted;
   for (const Term& term : rows.terms) wanted.mark(term.owner, term.at_owner);
   wanted.number();
@@ -133,6 +134,7 @@ void RowMap::multiply_fixed(const double* gathered, double* target) const {
       for (std::size_t part = 0; part < 4; ++part) add(part, k + static_cast<std::int64_t>(part));
     for (std::size_t part = 0; k < end; ++k, ++part) add(part, k);
     for (std::size_t c = 0; c < components; ++c) target[c] = (sum[0][c] + sum[1][c]) + (sum[2][c] + sum[3][c]);
+    if (begin_[i] == begin_[i + 1]) std::fill_n(target, components, empty_value_);
   }
 }
 
@@ -172,6 +174,7 @@ void RowMap::multiply_any(const double* gathered, double* target, std::size_t co
         for (std::size_t k = begin; k < static_cast<std::size_t>(begin_[i + 1]); ++k)
           part[(k - begin) % 4] += weight_[k] * value(slot_[k]);
         to = (part[0] + part[1]) + (part[2] + part[3]);
+        if (begin_[i] == begin_[i + 1]) to = empty_value_;
         continue;
       }
       const LocalIndex* const slots = points_.slot_.data() + i * width_;

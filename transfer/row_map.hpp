@@ -124,8 +124,8 @@ class PointRows {
 class RowMap {
  public:
   RowMap() = default;
-  /// Collective. Rows of all local target items; those without terms receive 0.
-  RowMap(const Communicator& comm, const Rows& rows, const std::string& name);
+  /// Collective. Rows of all local target items; those without terms receive `empty_value`.
+  RowMap(const Communicator& comm, const Rows& rows, const std::string& name, double empty_value = 0);
   /// Collective. The same for interpolation; rows without terms receive `empty_value`. Slots are those of `wanted`, or,
   /// without it, on one rank, the places of the source items themselves, of which there are `slots`.
   RowMap(const Communicator& comm, PointRows&& rows, double empty_value, const SlotTable& wanted,
