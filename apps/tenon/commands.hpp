@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/tenon/study_plan.hpp"
+#include "apps/tenon/transfer_plan.hpp"
 #include "framework/base/error.hpp"
 #include "framework/comm/communicator.hpp"
 
@@ -36,6 +37,9 @@ ExitCode run_scene(const Communicator& comm, const RunArguments& arguments, cons
 /// Collective. Runs a scene once for each of several values; writes study.csv and study.png. Runs that fail are
 /// recorded and the rest goes on: then the exit code is that of the first failure. Throws Error.
 ExitCode study_scene(const Communicator& comm, const StudyArguments& arguments);
+/// Collective. Maps fields of a result onto another mesh, writes them and prints a report. Throws Error, and has
+/// written nothing then.
+ExitCode transfer_results(const Communicator& comm, const TransferArguments& arguments);
 /// Collective. Everything that can be refused without running. Throws Error.
 void check_scene(const Communicator& comm, const RunArguments& arguments);
 /// Collective. Prints sizes, time step and its limit, steps, predicted seconds and memory, and what will be skipped.

@@ -68,6 +68,54 @@ void add_study_options(CLI::App& study, tenon::StudyArguments& arguments) {
       "  tenon study scene.yaml --vary meshes.bar.axial=20,40,80 --quantity max_eqps");
 }
 
+void add_transfer_options(CLI::App& command, tenon::TransferArguments& a) {
+  command.add_option("source", a.source, "Result with the fields: .pvd, .pvtu, .vtu, or Exodus with variables")
+      ->required();
+  command.add_option("target", a.target, "Mesh that takes them: Exodus, Gmsh, .vtu")->required();
+  command
+      .add_option("--fields", a.fields,
+                  "Fields, each NAME or NAME:METHOD, as temperature,plastic_heat:conserve (default: all of the source)")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command.add_option("--method", a.method, "Method of fields that name none: " + tenon::method_names())
+      ->capture_default_str();
+  command
+      .add_option("--kind", a.kinds, "What a field is, as heat:total; point_value, density or total; may be repeated")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command.add_option("--at", a.at, "Where the target has them: nodes or elements (default: as the source)");
+  command
+      .add_option("--outside", a.outside,
+                  "What a point outside the source receives: nearest, extrapolate, value=X; or error, to refuse")
+      ->capture_default_str();
+  command.add_option("--greatest-distance", a.greatest_distance,
+                     "Refuse points farther from the source than this, as '2 mm'");
+  command.add_option("--time", a.time, "State of the source nearest to this time, as '10 us', or last")
+      ->capture_default_str();
+  command.add_option("--part", a.part, "Component, if the source is a run's all.pvd");
+  command.add_option("--source-unit", a.source_unit, "Length of one unit of the source's coordinates, as mm")
+      ->capture_default_str();
+  command.add_option("--target-unit", a.target_unit, "Length of one unit of the target's coordinates, as mm")
+      ->capture_default_str();
+  command.add_option("-o,--output", a.output,
+                     "File for ParaView: .vtu, or .pvtu for a piece of each rank (default: TARGET's name .fields.vtu)");
+  command.add_option("--blocks", a.blocks, "Seek points in these blocks of the source only")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command.add_option("--sides", a.sides,
+                     "Side set of the source that nearest_projection projects to (default: its skin)");
+  command.add_flag("--status", a.status,
+                   "Write transfer_status (0 inside, 1 nearest, 2 extrapolated, 3 value) and transfer_distance, too");
+  command.add_flag("--report", a.report, "Say more of each field: all digits of the integrals, the farthest point");
+  command.footer(
+      "Fields with standard names are densities (density ...) or totals (mass, force, plastic_heat ...), which are "
+      "conserved; others are point values, which are interpolated. Coordinates are those in the files. In parallel: "
+      "mpirun -n 4 tenon transfer ...; the result is the same to the last bit.\n"
+      "Examples:\n"
+      "  tenon transfer out/bar/mechanics.pvd fine.exo --fields temperature,stress\n"
+      "  tenon transfer result.exo new.msh --fields heat --kind heat:total --greatest-distance '1 mm' -o heat.vtu");
+}
+
 /// The nearest command to a word that is none; empty if the complaint is about something else.
 std::string unknown_command(int argc, char** argv, const CLI::App& app) {
   std::vector<std::string> names;
@@ -139,6 +187,9 @@ int main(int argc, char** argv) {
   tenon::StudyArguments study_arguments;
   CLI::App& study = *app.add_subcommand("study", "Run a scene for several values of its keys, and compare the errors");
   add_study_options(study, study_arguments);
+  tenon::TransferArguments transfer_arguments;
+  CLI::App& transfer = *app.add_subcommand("transfer", "Map fields of a result onto another mesh");
+  add_transfer_options(transfer, transfer_arguments);
   CLI::App& reference = *app.add_subcommand("reference", "Print the scene reference");
   reference.add_option("section", section, "Only this section, as `materials` or `components`");
   CLI::App& picture = *app.add_subcommand("picture", "Draw PNG pictures of the results of a run or study");
@@ -160,6 +211,7 @@ int main(int argc, char** argv) {
     if (run.parsed()) return tenon::run_scene(comm, arguments);
     if (check.parsed()) tenon::check_scene(comm, arguments);
     if (study.parsed()) return tenon::study_scene(comm, study_arguments);
+    if (transfer.parsed()) return tenon::transfer_results(comm, transfer_arguments);
     if (plan.parsed()) tenon::plan_scene(comm, arguments);
     return ExitCode::done;
   });

@@ -19,6 +19,8 @@ class VtkErrorNote {
   VtkErrorNote& operator=(const VtkErrorNote&) = delete;
   bool any() const { return !text_.empty(); }
   const std::string& text() const { return text_; }
+  /// For objects that a VTK object makes itself, say the parser of a reader.
+  vtkCommand* observer() const { return command_; }
 
  private:
   std::string text_;

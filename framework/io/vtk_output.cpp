@@ -154,6 +154,33 @@ void VtkOutput::write(double time, std::int64_t step, std::span<const OutputPart
   });
 }
 
+void write_pvtu(const Communicator& comm, const std::string& path, const OutputPart& part) {
+  const fs::path file(path);
+  const auto piece = [&](std::size_t rank) { return fmt::format("{}-r{}.vtu", file.stem().string(), rank); };
+  const std::string mine = (file.parent_path() / piece(static_cast<std::size_t>(comm.rank()))).string();
+  const std::int64_t owned = owned_elements(part);
+  const bool nobody = comm.sum(owned) == 0, writes = owned > 0 || (nobody && comm.rank() == 0);
+  try {
+    comm.vote([&] {
+      check_fields(part);
+      if (writes) write_piece(mine, part);
+    });
+    const std::int64_t one = writes ? 1 : 0;
+    const std::vector<std::int64_t> writers = comm.gather(std::span(&one, 1));
+    comm.vote_on_root([&] {
+      std::vector<std::string> pieces;
+      for (std::size_t rank = 0; rank < writers.size(); ++rank)
+        if (writers[rank] > 0) pieces.push_back(piece(rank));
+      write_and_rename(path, format_pvtu(part, pieces));
+    });
+  } catch (const Error&) {
+    std::error_code none;
+    fs::remove(mine, none);
+    fs::remove(mine + ".part", none);
+    throw;
+  }
+}
+
 std::int64_t VtkOutput::frames() const {
   return static_cast<std::int64_t>(impl_->times.size());
 }

@@ -45,4 +45,8 @@ class VtkOutput {
   std::unique_ptr<Impl> impl_;
 };
 
+/// Collective. One state as `path` (.pvtu) and beside it a piece of each rank that owns elements. Throws Error(file) on
+/// all ranks, and leaves nothing behind then.
+void write_pvtu(const Communicator& comm, const std::string& path, const OutputPart& part);
+
 }  // namespace tenon

@@ -112,6 +112,21 @@ std::vector<double> NetcdfFile::reals(const std::string& variable, std::int64_t 
   return values;
 }
 
+std::vector<double> NetcdfFile::reals_of_row(const std::string& variable, std::int64_t row, std::int64_t length) const {
+  const Variable v = inquire(variable);
+  if (v.shape.size() != 2 || static_cast<std::size_t>(row) >= v.shape[0] ||
+      v.shape[1] != static_cast<std::size_t>(length))
+    refuse(path_, "variable '" + variable + "' has no row " + std::to_string(row + 1) + " of " +
+                      std::to_string(length) + " values");
+  if (v.type != NC_FLOAT && v.type != NC_DOUBLE) refuse(path_, "variable '" + variable + "' is not of real numbers");
+  std::vector<double> values(static_cast<std::size_t>(length));
+  const std::array<std::size_t, 2> start{static_cast<std::size_t>(row), 0}, count{1, values.size()};
+  if (!values.empty())
+    require(nc_get_vara_double(id_, v.id, start.data(), count.data(), values.data()),
+            "'" + variable + "' cannot be read");
+  return values;
+}
+
 std::vector<std::string> NetcdfFile::texts(const std::string& variable, std::int64_t rows) const {
   const Variable v = inquire(variable);
   if (v.type != NC_CHAR || v.shape.size() != 2 || v.shape[0] != static_cast<std::size_t>(rows) ||

@@ -25,6 +25,8 @@ class NetcdfFile {
   /// All values of a variable. Refuses a missing variable, one of another type and one of another length.
   std::vector<std::int64_t> integers(const std::string& variable, std::int64_t length) const;
   std::vector<double> reals(const std::string& variable, std::int64_t length) const;
+  /// Row `row` of a variable of two dimensions, of `length` values.
+  std::vector<double> reals_of_row(const std::string& variable, std::int64_t row, std::int64_t length) const;
   /// The rows of a two-dimensional text variable, without trailing blanks and NULs; `rows` of them.
   std::vector<std::string> texts(const std::string& variable, std::int64_t rows) const;
   /// Text attribute of a variable; empty if there is none.

@@ -50,4 +50,12 @@ MeshData read_mesh(const std::string& path) {
   mesh_file::refuse(path, explain(start, extension_of(path)));
 }
 
+ResultData read_result(const std::string& path, const StateChoice& choice) {
+  const std::string start = mesh_file::start_of(path, looked_at);
+  if (start.starts_with("CDF") || mesh_file::is_hdf5(start)) return read_exodus_result(path, choice);
+  ResultData result;
+  result.mesh = read_mesh(path);
+  return result;
+}
+
 }  // namespace tenon

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "framework/fields/result_data.hpp"
 #include "framework/mesh/mesh_data.hpp"
 
 namespace tenon {
@@ -19,6 +20,12 @@ MeshData read_mesh(const std::string& path);
 /// In a file of two dimensions z is 0. An HDF5 file is read in a forked child first, because that library can crash on
 /// corrupt files.
 MeshData read_exodus(const std::string& path);
+
+/// The mesh with its nodal and element variables in one state. Variables that differ in a last x, y, z (or xx, yy, zz,
+/// xy, yz, zx or xz) alone are one field: displ_x, displ_y, displ_z -> displ. A file without states has no fields.
+ResultData read_exodus_result(const std::string& path, const StateChoice& choice);
+/// The same of any file that read_mesh reads; a Gmsh file has no fields.
+ResultData read_result(const std::string& path, const StateChoice& choice);
 
 /// Elements of the highest dimension become blocks, one for each physical group and kind ("name", or "name_tet4" where
 /// a group has several kinds); without groups the block is "volume" or "surface". An element of several groups is in

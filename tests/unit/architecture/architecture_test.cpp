@@ -27,8 +27,8 @@ const std::map<std::string, std::set<std::string>> allowed = [] {
     rooms[room].insert(last);
   };
   below("framework/mesh", "framework/search");
-  below("framework/mesh_files", "framework/mesh");
   below("framework/fields", "framework/mesh");
+  below("framework/mesh_files", "framework/fields");
   below("framework/io", "framework/fields");
   below("framework/simulation", "framework/io");
   rooms["framework/scene"] = {"framework/base"};

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What `tenon transfer` says of the fields that it has carried over.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "transfer/grid_transfer.hpp"
+
+namespace tenon {
+
+struct TransferredField {
+  FieldDescription description;  ///< at the source
+  Location to = Location::node;
+  std::string method;
+  transfer::TransferReport report;
+};
+
+/// A line for each field: integrals before and after, misses, errors. `solid`: integrals are over volumes, not areas.
+std::string transfer_table(std::span<const TransferredField> fields, bool solid);
+/// Further lines, for --report.
+std::string transfer_details(std::span<const TransferredField> fields);
+
+}  // namespace tenon
