@@ -171,7 +171,14 @@ InverseMap curved_search(ElementKind kind, std::span<const Vec3> nodes, const Ve
 InverseMap tet_inverse(std::span<const Vec3> corners, const Vec3& point) {
   InverseMap result{element_centre(ElementKind::tet4), false};
   const std::array<Vec3, 3> j{corners[1] - corners[0], corners[2] - corners[0], corners[3] - corners[0]};
-  result.converged = solve(j, point - corners[0], result.xi) != 0;
+  const Vec3 seen = point - corners[0];
+  result.converged = solve(j, seen, result.xi) != 0;
+  if (!result.converged) return result;
+  // Cramer's rule leaves residuals in slivers; a second solution for these removes them.
+  const Vec3 rest = seen - (result.xi[0] * j[0] + (result.xi[1] * j[1] + result.xi[2] * j[2]));
+  Vec3 more{};
+  solve(j, rest, more);
+  result.xi = result.xi + more;
   return result;
 }
 

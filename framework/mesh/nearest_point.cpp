@@ -26,7 +26,9 @@ Vec3 on_triangle(const std::array<Vec3, 3>& p) {
   const Vec3 e1 = p[1] - p[0], e2 = p[2] - p[0], normal = cross(e1, e2);
   const double area = dot(normal, normal);
   if (area > 0) {
-    const double w1 = dot(cross(e2, p[0]), normal) / area, w2 = dot(cross(p[0], e1), normal) / area;
+    double w1 = dot(cross(e2, p[0]), normal) / area, w2 = dot(cross(p[0], e1), normal) / area;
+    const Vec3 foot = p[0] + (w1 * e1 + w2 * e2);  // once more from there, for slivers
+    w1 += dot(cross(e2, foot), normal) / area, w2 += dot(cross(foot, e1), normal) / area;
     if (w1 >= 0 && w2 >= 0 && w1 + w2 <= 1) return {1 - w1 - w2, w1, w2};
   }
   Vec3 best{};

@@ -98,6 +98,7 @@ std::vector<Vec3> random_element(ElementKind kind, int family, Random& random) {
   const std::span<const Vec3> local = local_nodes(kind);
   std::vector<Vec3> x(local.begin(), local.end());
   distort(kind, family, x, random);
+  if (random.below(2) == 0) distort(kind, random.below(static_cast<int>(families.size())), x, random);
   straighten(kind, x);
   if (const auto first = static_cast<std::size_t>(corner_count(kind)); first < x.size()) {
     double width = 1e300;  // of the shortest edge
@@ -112,18 +113,31 @@ std::vector<Vec3> random_element(ElementKind kind, int family, Random& random) {
   return x;
 }
 
-/// Looked at on a lattice with the faces, edges and corners.
+/// Sure for hex8, whose determinant is of degree 2 in each coordinate: its Bernstein coefficients are positive. Others
+/// are looked at on a lattice with the faces, edges and corners.
 bool is_positive(ElementKind kind, const ExtendedOracle& oracle) {
-  const int n = kind == ElementKind::hex8 ? 3 : 4;
-  for (int i = 0; i <= n; ++i)
+  const int n = kind == ElementKind::hex8 ? 2 : 8;
+  std::vector<Extended> determinants;
+  for (int k = 0; k <= n; ++k)
     for (int j = 0; j <= n; ++j)
-      for (int k = 0; k <= n; ++k) {
+      for (int i = 0; i <= n; ++i) {
         Extended3 xi{2.0L * i / n - 1, 2.0L * j / n - 1, 2.0L * k / n - 1};
-        // The pyramid has the determinant of its base all the way up.
-        if (kind == ElementKind::pyramid5) xi[2] = 0;
-        if (ExtendedOracle::overshoot(kind, xi) <= 0 && !(oracle.determinant(xi) > 0)) return false;
+        if (kind == ElementKind::tet10)  // has them from 0 to 1
+          for (Extended& c : xi) c = (c + 1) / 2;
+        if (kind == ElementKind::pyramid5) {  // it has the determinant of its base all the way up
+          if (k > 0) continue;
+          xi[2] = 0;
+        }
+        if (ExtendedOracle::overshoot(kind, xi) > 0) continue;
+        determinants.push_back(oracle.determinant(xi));
+        if (!(determinants.back() > 0)) return false;
       }
-  return true;
+  if (kind != ElementKind::hex8) return true;
+  for (const std::size_t stride : {1, 3, 9})
+    for (std::size_t m = 0; m < 27; ++m)
+      if (m / stride % 3 == 1)
+        determinants[m] = 2 * determinants[m] - (determinants[m - stride] + determinants[m + stride]) / 2;
+  return std::ranges::all_of(determinants, [](Extended d) { return d > 0; });
 }
 
 /// Local coordinates inside; `depth` half widths below a face picked at random, if that is given.
@@ -245,6 +259,7 @@ class Comparison {
   }
 
   void judge(const ExtendedOracle& oracle, const Probe& probe, const Placement& place, double tolerance) {
+    tolerance_ = tolerance;
     const bool found = place.found() && !place.is_outside();
     std::optional<OraclePlace> there = oracle.from(probe.point, probe.xi);
     if (found) {
@@ -274,12 +289,16 @@ class Comparison {
   void tell(const char* what, const Probe& probe, const Placement& place, Extended overshoot) {
     if (count_.lost + count_.invented > 5) return;
     count_.first += fmt::format(
-        "{}: {} {} element, point ({:.17g}, {:.17g}, {:.17g}) at xi ({:.6g}, {:.6g}, {:.6g}), overshoot {:.3g}; placed "
+        "{}: {} (and more) {} element, point ({:.17g}, {:.17g}, {:.17g}) at xi ({:.6g}, {:.6g}, {:.6g}), overshoot "
+        "{:.3g}; placed "
         "at ({:.6g}, {:.6g}, {:.6g}), distance {:.3g}\n",
         what, families[static_cast<std::size_t>(family_)], topology(run_.kind).name, probe.point[0], probe.point[1],
         probe.point[2], static_cast<double>(probe.xi[0]), static_cast<double>(probe.xi[1]),
         static_cast<double>(probe.xi[2]), static_cast<double>(overshoot), place.xi[0], place.xi[1], place.xi[2],
         place.distance);
+    count_.first +=
+        fmt::format("  gap {:.3g}, tolerance {:.3g}\n",
+                    static_cast<double>(gap(ExtendedOracle(run_.kind, x_), place.xi, probe.point)), tolerance_);
     for (const Vec3& p : x_) count_.first += fmt::format("  {{{:.17g}, {:.17g}, {:.17g}}},\n", p[0], p[1], p[2]);
   }
 
@@ -288,6 +307,7 @@ class Comparison {
   OracleCount count_;
   std::vector<Vec3> x_;
   int family_ = 0;
+  double tolerance_ = 0;  ///< m
 };
 
 }  // namespace

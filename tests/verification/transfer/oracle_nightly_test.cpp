@@ -17,7 +17,7 @@ void expect_faultless(const OracleRun& run) {
 }
 
 TEST(OracleNightly, Hexahedra) {
-  expect_faultless({ElementKind::hex8, 10000, 5, 1, 171});
+  expect_faultless({ElementKind::hex8, 20000, 4, 2, 171});
 }
 TEST(OracleNightly, Tetrahedra) {
   expect_faultless({ElementKind::tet4, 10000, 1, 1, 172});
