@@ -58,10 +58,10 @@ Shape shape_of(ElementKind kind, std::span<const Vec3> corners, double size) {
   const double measure = element_measure(kind, corners);
   if (measure > smallest) return Shape::sound;
   if (topology(kind).dimension != 3) return Shape::flat;
-  double greatest = std::abs(measure);
+  double absolute = 0;
   for (const QuadraturePoint& q : quadrature(kind))
-    greatest = std::max(greatest, std::abs(jacobian_determinant(kind, corners, q.xi)));
-  return greatest <= smallest ? Shape::flat : Shape::inverted;
+    absolute += q.weight * std::abs(jacobian_determinant(kind, corners, q.xi));
+  return absolute <= 2 * smallest ? Shape::flat : Shape::inverted;
 }
 
 /// What fit() finds on this rank.

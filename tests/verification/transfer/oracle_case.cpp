@@ -233,6 +233,10 @@ class Comparison {
       family_ = attempt % static_cast<int>(families.size());
       x_ = random_element(run_.kind, family_, random_);
       const ExtendedOracle oracle(run_.kind, x_);
+      Box box;
+      for (const Vec3& p : x_) box.add(p);
+      // Thinner ones count as elements without volume.
+      if (!(element_measure(run_.kind, x_) > 1e-13 * std::pow(box.diagonal(), 3))) continue;
       if (!is_positive(run_.kind, oracle)) continue;
       ++count_.elements;
       for (const double tolerance : {1e-9, 1e-12}) compare(oracle, probes(run_.kind, oracle, random_), tolerance);
