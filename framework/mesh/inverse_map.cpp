@@ -174,11 +174,15 @@ InverseMap tet_inverse(std::span<const Vec3> corners, const Vec3& point) {
   const Vec3 seen = point - corners[0];
   result.converged = solve(j, seen, result.xi) != 0;
   if (!result.converged) return result;
-  // Cramer's rule leaves residuals in slivers; a second solution for these removes them.
-  const Vec3 rest = seen - (result.xi[0] * j[0] + (result.xi[1] * j[1] + result.xi[2] * j[2]));
-  Vec3 more{};
-  solve(j, rest, more);
-  result.xi = result.xi + more;
+  // Cramer's rule leaves residuals in slivers; solutions for these remove them.
+  const double noise = 4 * epsilon * (greatest(seen) + greatest(j[0]) + greatest(j[1]) + greatest(j[2]));
+  for (int i = 0; i < 4; ++i) {
+    const Vec3 rest = seen - (result.xi[0] * j[0] + (result.xi[1] * j[1] + result.xi[2] * j[2]));
+    if (greatest(rest) <= noise) break;
+    Vec3 more{};
+    solve(j, rest, more);
+    result.xi = result.xi + more;
+  }
   return result;
 }
 

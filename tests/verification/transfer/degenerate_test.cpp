@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "framework/base/error.hpp"
+#include "transfer/moving_least_squares.hpp"
 #include "transfer_testing.hpp"
 
 namespace tenon::transfer {
@@ -37,8 +38,6 @@ constexpr Case cases[] = {
     {"conserve totals", Method::conserve, FieldKind::total},
     {"conserve totals of elements", Method::conserve, FieldKind::total, Location::element},
     {"conserve densities", Method::conserve, FieldKind::density},
-    {"project", Method::project, FieldKind::point_value},
-    {"moving least squares", Method::moving_least_squares, FieldKind::point_value},
     {"automatic", Method::automatic, FieldKind::point_value},
 };
 
@@ -146,8 +145,8 @@ TEST(Degenerate, InvertedElementsAreRefusedByNameWherePointsAreSought) {
     const Pair pair =
         seeks_in_target ? pair_of(box(4), changed(box(3), inverted), c) : pair_of(changed(box(3), inverted), box(4), c);
     const Outcome outcome = run(c, pair);
-    if (c.method == Method::moving_least_squares || c.method == Method::nearest_projection)
-      expect_numbers(outcome, c.name);  // neither looks into elements
+    if (c.method == Method::nearest_projection)
+      expect_numbers(outcome, c.name);  // looks at faces only
     else
       expect_error(outcome, ExitCode::geometry, {"test", "element 6", "inverted", "repair"}, c.name);
   }
@@ -176,10 +175,10 @@ TEST(Degenerate, DuplicatedElementsGiveTheValuesOfTheFirst) {
 }
 
 TEST(Degenerate, CoordinatesThatAreNoNumbersAreRefused) {
+  const Pair pair = pair_of(box(3), box(4), cases[0]);
   for (const Case& c : cases)
     for (const bool in_source : {true, false})
       for (const double wrong : {nan, std::numeric_limits<double>::infinity()}) {
-        const Pair pair = pair_of(box(3), box(4), c);
         std::vector<Vec3> source = pair.source->coordinates, target = pair.target->coordinates;
         std::vector<Vec3>& bad = in_source ? source : target;
         const Mesh& mesh = in_source ? *pair.source : *pair.target;
@@ -220,10 +219,10 @@ TEST(Degenerate, AnEmptySourceIsRefusedAndAnEmptyTargetIsNot) {
 }
 
 TEST(Degenerate, AllTargetsOutsideFollowThePolicy) {
+  Pair pair = pair_of(box(3), box(2, {.low = {5, 5, 5}, .high = {6, 6, 6}}), cases[0]);
   for (const Case& c : cases) {
-    const auto far = [&] { return pair_of(box(3), box(2, {.low = {5, 5, 5}, .high = {6, 6, 6}}), c); };
-    expect_numbers(run(c, far(), {.outside = OutsidePolicy::nearest}), c.name);
-    const Pair pair = far();
+    pair.from = c.from;
+    expect_numbers(run(c, pair, {.outside = OutsidePolicy::nearest}), c.name);
     const Outcome extended = run(c, pair, {.outside = OutsidePolicy::extrapolate});
     expect_numbers(extended, c.name);
     if (c.method == Method::interpolate) {
@@ -231,17 +230,17 @@ TEST(Degenerate, AllTargetsOutsideFollowThePolicy) {
       EXPECT_EQ(extended.report.outside, 27);
       EXPECT_NEAR(extended.report.greatest_distance, 5 * std::sqrt(3.0), 1e-12);
     }
-    const Outcome refused = run(c, far(), {.outside = OutsidePolicy::error});
+    const Outcome refused = run(c, pair, {.outside = OutsidePolicy::error});
     const bool has_outside = c.method == Method::interpolate || c.method == Method::conserve;
     if (has_outside) expect_error(refused, ExitCode::geometry, {"test", "outside the mesh", "m away"}, c.name);
-    const Outcome given = run(c, far(), {.outside = OutsidePolicy::value, .outside_value = -7});
+    const Outcome given = run(c, pair, {.outside = OutsidePolicy::value, .outside_value = -7});
     if (c.method == Method::conserve)
       expect_error(given, ExitCode::usage, {"test", "value"}, c.name);
     else if (c.method == Method::interpolate)
       for (const double v : given.values) EXPECT_EQ(v, -7) << c.name;
     else
       agree(given, c.name);
-    const Outcome too_far = run(c, far(), {.greatest_distance = 1});
+    const Outcome too_far = run(c, pair, {.greatest_distance = 1});
     if (has_outside) expect_error(too_far, ExitCode::geometry, {"test", "at most 1 m"}, c.name);
   }
 }
@@ -263,7 +262,7 @@ TEST(Degenerate, CoincidentPointsGetTheSameValue) {
     const Pair pair = pair_of(box(3, {.distortion = 0.2}), changed(box(4), doubled), c);
     const Outcome outcome = run(c, pair);
     expect_numbers(outcome, c.name);
-    if (c.kind != FieldKind::point_value || c.method == Method::project) continue;
+    if (c.kind != FieldKind::point_value) continue;
     // Both copies side by side on every rank: by ids, over all ranks.
     const auto half = static_cast<std::size_t>(pair.target->global_nodes / 2);
     std::vector<double> first(half, -1e300), second(half, -1e300);
@@ -291,56 +290,69 @@ TEST(Degenerate, PointsOnSharedFacesEdgesAndVerticesAreInside) {
   }
 }
 
-TEST(Degenerate, CloudsWithoutPointsOrInOnePlace) {
-  const Communicator& comm = communicator();
-  FieldDescription field;
-  field.name = "field", field.kind = FieldKind::point_value;
-  const auto attempt = [&](const PointCloud& from, const std::vector<Vec3>& x, const PointCloud& to,
-                           const std::vector<Vec3>& y, Method method) {
-    Outcome outcome;
-    field.location = Location::particle;
-    try {
-      Grid source{.coordinates = x, .location = Location::particle, .cloud = &from};
-      Grid target{.coordinates = y, .location = Location::particle, .cloud = &to};
-      const GridTransfer map(source, target, field, {.method = method}, "test");
-      std::vector<double> values(x.size(), 3.0);
-      outcome.values.assign(y.size(), nan);
-      map.apply(values, outcome.values, 1);
-    } catch (const Error& error) {
-      outcome.error = error.what(), outcome.code = error.code();
+/// Points 0 to count - 1 on a lattice, dealt out to the ranks in turn.
+struct Cloud {
+  Cloud(int count, double spread) {
+    for (int i = communicator().rank(); i < count; i += communicator().size()) {
+      points.ids.push_back(i);
+      x.push_back({spread * (i % 4), spread * (i / 4 % 4), spread * (i / 16)});
     }
-    agree(outcome, "cloud");
-    return outcome;
-  };
-  const auto cloud = [&](int count) {
-    PointCloud points{comm, {}, "cloud"};
-    for (int i = comm.rank(); i < count; i += comm.size()) points.ids.push_back(i);
-    return points;
-  };
-  const auto places = [](const PointCloud& points, double spread) {
-    std::vector<Vec3> x;
-    for (const GlobalId id : points.ids)
-      x.push_back({spread * static_cast<double>(id % 4), spread * static_cast<double>(id / 4 % 4),
-                   spread * static_cast<double>(id / 16)});
-    return x;
-  };
-  const PointCloud none = cloud(0), few = cloud(5), many = cloud(64);
-  for (const Method method : {Method::interpolate, Method::moving_least_squares}) {
-    const Outcome empty = attempt(none, {}, many, places(many, 1), method);
-    EXPECT_NE(empty.error, "");
-    // All points in one place, in a line, on another lattice than the targets.
-    for (const double spread : {0.0, 0.5}) {
-      const Outcome outcome = attempt(few, places(few, spread), many, places(many, 0.3), method);
-      if (method == Method::interpolate) {
-        expect_error(outcome, ExitCode::usage, {"test", "moving_least_squares"}, "cloud");
-        continue;
-      }
-      expect_numbers(outcome, "moving least squares");
-      for (const double v : outcome.values) EXPECT_NEAR(v, 3, 1e-13);
-    }
-    const Outcome to_none = attempt(many, places(many, 1), none, {}, method);
-    if (method == Method::moving_least_squares) expect_numbers(to_none, "moving least squares");
   }
+  PointCloud points{communicator(), {}, "cloud"};
+  std::vector<Vec3> x;
+};
+
+/// Greatest |sum of weights - 1| of the rows that moving least squares makes.
+Outcome fit(const Cloud& from, const Cloud& to, double& greatest) {
+  Outcome outcome;
+  greatest = 0;
+  try {
+    std::vector<FittedPoint> fitted;
+    const Rows rows =
+        moving_least_squares_rows(communicator(), items_of(from.points), from.x, to.x, {}, "test", fitted);
+    EXPECT_EQ(rows.size(), to.x.size());
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      double sum = 0;
+      for (const Term& term : rows.row(r)) sum += term.weight;
+      if (const double off = std::abs(sum - 1); !(off <= greatest)) greatest = off;
+    }
+  } catch (const Error& error) {
+    outcome.error = error.what(), outcome.code = error.code();
+  }
+  agree(outcome, "moving least squares");
+  return outcome;
+}
+
+TEST(Degenerate, CloudsWithoutPointsOrInOnePlace) {
+  double greatest = 0;
+  expect_error(fit(Cloud(0, 1), Cloud(64, 1), greatest), ExitCode::geometry, {"test", "no points"}, "empty cloud");
+  EXPECT_EQ(fit(Cloud(64, 1), Cloud(0, 1), greatest).error, "");
+  // One point; few in one place; few in a plane; many in one place.
+  for (const auto& [count, spread] : {std::pair(1, 1.0), std::pair(5, 0.0), std::pair(8, 0.5), std::pair(64, 0.0)}) {
+    EXPECT_EQ(fit(Cloud(count, spread), Cloud(64, 0.3), greatest).error, "");
+    EXPECT_LT(greatest, 1e-13) << count << " points, " << spread << " m apart";
+  }
+  Cloud broken(8, 1);
+  if (!broken.x.empty()) broken.x.front()[0] = nan;
+  EXPECT_NE(fit(broken, Cloud(8, 1), greatest).error, "");
+}
+
+TEST(Degenerate, PointsWithoutAMeshAreNotInterpolated) {
+  const Cloud points(8, 1);
+  const Case c = cases[0];
+  const Pair pair = pair_of(box(2), box(2), c);
+  Outcome outcome;
+  FieldDescription field;
+  field.name = "field", field.location = Location::particle, field.kind = FieldKind::point_value;
+  try {
+    Grid source{.coordinates = points.x, .location = Location::particle, .cloud = &points.points};
+    Grid target{.mesh = pair.target.get(), .coordinates = pair.target->coordinates};
+    const GridTransfer map(source, target, field, {.method = Method::interpolate}, "test");
+  } catch (const Error& error) {
+    outcome.error = error.what(), outcome.code = error.code();
+  }
+  agree(outcome, "cloud");
+  expect_error(outcome, ExitCode::usage, {"test", "cloud", "moving_least_squares"}, "cloud");
 }
 
 }  // namespace
