@@ -140,7 +140,7 @@ void run_pushed_out() {
   }
 }
 
-void run_graded(int n, int m, int repeats) {
+void run_graded(int n, int m, int repeats, bool vtk) {
   struct Pair {
     std::shared_ptr<const Mesh> source;
     Targets targets;
@@ -160,7 +160,7 @@ void run_graded(int n, int m, int repeats) {
     for (Pair& p : pairs) {
       const auto map =
           p.set_up.take(p.source->comm, [&] { return interpolation(*p.source, p.source->coordinates, p.targets); });
-      if (p.source->comm.size() == 1) {
+      if (vtk && p.source->comm.size() == 1) {
         const VtkRival rival(*p.source, p.source->coordinates);
         p.locate.take(p.source->comm, [&] { return rival.locate(p.targets.points); });
       }

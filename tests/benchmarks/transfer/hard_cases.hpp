@@ -9,7 +9,7 @@ void run_pushed_out();
 
 /// Collective. Set-up on meshes of n^3 and m^3 whose elements grow 1,000 : 1 in each direction, over that on uniform
 /// ones.
-void run_graded(int n, int m, int repeats);
+void run_graded(int n, int m, int repeats, bool vtk);
 
 /// Collective. The map brought up to date after each of several motions, over a new one.
 void run_moving(int n, int m, int repeats);

@@ -33,7 +33,7 @@ void run(const Arguments& arguments) {
   for (const std::string& part : arguments.parts) {
     if (part == "uniform") uniform(n, m, arguments.work);
     if (part == "outside") run_pushed_out();
-    if (part == "graded") run_graded(n, m, repeats);
+    if (part == "graded") run_graded(n, m, repeats, arguments.work.vtk);
     if (part == "moving") run_moving(n, m, repeats);
     if (part == "methods") run_work_error(arguments.finest, arguments.csv);
   }
