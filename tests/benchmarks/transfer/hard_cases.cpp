@@ -173,10 +173,12 @@ void run_graded(int n, int m, int repeats, bool vtk) {
   for (const std::size_t k : {0, 1}) {
     const auto us = [&](const Times& t, const Pair& p) { return t.processor.empty() ? 0 : 1e6 * t.median() / p.share; };
     const Pair &uniform = pairs[k], &graded = pairs[k + 2];
-    fmt::print("  {:14} uniform {:.4f}, graded {:.4f}: ratio {:.3f}; VTK {:.4f}, {:.4f}; f_l {:.1e}\n",
-               k == 0 ? "nodes" : "random points", us(uniform.set_up, uniform), us(graded.set_up, graded),
-               us(graded.set_up, graded) / us(uniform.set_up, uniform), us(uniform.locate, uniform),
-               us(graded.locate, graded), graded.errors.greatest);
+    fmt::print("  {:14} uniform {:.4f}, graded {:.4f}: ratio {:.3f}; f_l {:.1e}", k == 0 ? "nodes" : "random points",
+               us(uniform.set_up, uniform), us(graded.set_up, graded),
+               us(graded.set_up, graded) / us(uniform.set_up, uniform), graded.errors.greatest);
+    if (!uniform.locate.processor.empty())
+      fmt::print("; VTK {:.4f}, {:.4f}", us(uniform.locate, uniform), us(graded.locate, graded));
+    fmt::print("\n");
   }
 }
 

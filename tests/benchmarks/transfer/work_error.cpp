@@ -6,12 +6,9 @@
 #include <cmath>
 #include <fstream>
 #include <functional>
-#include <optional>
 
 #include "bench_cases.hpp"
 #include "bench_clock.hpp"
-#include "transfer/moving_least_squares.hpp"
-#include "transfer/projection.hpp"
 #include "vtk_rival.hpp"
 
 namespace tenon::bench {
@@ -62,34 +59,11 @@ Trial by_transfer(std::shared_ptr<const Mesh> source, Targets targets, FieldKind
   return {targets, set_up, [=](std::span<double> result) { (*map)->apply(*values, result, 1); }};
 }
 
-Way through(const std::string& name, Method method, FieldKind kind, ElementKind kind_of_source = ElementKind::hex8) {
-  return {"volume", name, [=](int n) {
-            TransferOptions options;
-            options.method = method;
-            return by_transfer(cube(n, 1, {.kind = kind_of_source}), target_nodes(n), kind, options);
-          }};
+Way through(const std::string& name, const TransferOptions& options, FieldKind kind = FieldKind::point_value,
+            ElementKind elements = ElementKind::hex8) {
+  return {"volume", name,
+          [=](int n) { return by_transfer(cube(n, 1, {.kind = elements}), target_nodes(n), kind, options); }};
 }
-
-/// The two meshes of a trial with what the methods below the transfer need of them.
-struct Ends {
-  std::shared_ptr<const Mesh> source;
-  Targets targets;
-  transfer::Items source_nodes, target_nodes;
-  std::vector<double> values;
-
-  explicit Ends(int n)
-      : source(cube(n, 1)),
-        targets(bench::target_nodes(n)),
-        source_nodes(transfer::items_of(*source, Location::node)),
-        target_nodes(transfer::items_of(*targets.mesh, Location::node)),
-        values(sampled(source->coordinates, smooth_field)) {}
-  transfer::Side source_side() const {
-    return {*source, source->coordinates, Location::node, source_nodes, source_nodes};
-  }
-  transfer::Side target_side() const {
-    return {*targets.mesh, targets.points, Location::node, target_nodes, target_nodes};
-  }
-};
 
 /// From one sphere of facets to the nodes of another.
 Way nearest_projection() {
@@ -98,39 +72,6 @@ Way nearest_projection() {
             options.method = Method::nearest_projection;
             return by_transfer(sphere_surface(n), nodes_of("nodes", sphere_surface(n + n / 4)), FieldKind::point_value,
                                options);
-          }};
-}
-
-Way projection(const std::string& name, bool bounded) {
-  return {
-      "volume", name, [=](int n) {
-        const auto ends = std::make_shared<Ends>(n);
-        const auto map = std::make_shared<std::optional<transfer::Projection>>();
-        const auto set_up = [=] {
-          map->reset();
-          transfer::Sought sought;
-          map->emplace(ends->source_side(), ends->target_side(), transfer::PlaceRules{},
-                       transfer::ProjectionOptions{.bounded = bounded}, "bench", sought);
-        };
-        return Trial{ends->targets, set_up, [=](std::span<double> result) { (*map)->apply(ends->values, result, 1); }};
-      }};
-}
-
-Way moving_least_squares() {
-  return {"volume", "moving least squares, 20 points", [](int n) {
-            const auto ends = std::make_shared<Ends>(n);
-            const auto map = std::make_shared<transfer::RowMap>();
-            const auto set_up = [=] {
-              *map = {};
-              std::vector<transfer::FittedPoint> fitted;
-              const Communicator& comm = ends->source->comm;
-              const transfer::Rows rows = moving_least_squares_rows(comm, ends->source_nodes, ends->source->coordinates,
-                                                                    ends->targets.points, {}, "bench", fitted);
-              *map = transfer::RowMap(comm, rows, "bench");
-            };
-            return Trial{ends->targets, set_up, [=](std::span<double> result) {
-                           map->multiply(map->gathered(std::span<const double>(ends->values)), result, 1);
-                         }};
           }};
 }
 
@@ -160,16 +101,17 @@ Way vtk_probe() {
 }
 
 std::vector<Way> ways() {
-  return {through("interpolate, hex8", Method::interpolate, FieldKind::point_value),
-          through("interpolate, tet4", Method::interpolate, FieldKind::point_value, ElementKind::tet4),
-          through("interpolate, hex20", Method::interpolate, FieldKind::point_value, ElementKind::hex20),
-          through("conserve", Method::conserve, FieldKind::density),
-          projection("project", false),
-          projection("project, bounded", true),
-          moving_least_squares(),
-          nearest_projection(),
+  constexpr auto value = FieldKind::point_value;
+  return {through("interpolate, hex8", {.method = Method::interpolate}),
+          through("interpolate, tet4", {.method = Method::interpolate}, value, ElementKind::tet4),
+          through("interpolate, hex20", {.method = Method::interpolate}, value, ElementKind::hex20),
+          through("conserve", {.method = Method::conserve}, FieldKind::density),
+          through("project", {.method = Method::project}),
+          through("project, bounded", {.method = Method::project, .bounded = true}),
+          through("moving least squares, 20 points", {.method = Method::moving_least_squares}),
           vtk_locator("volume"),
           vtk_probe(),
+          nearest_projection(),
           vtk_locator("surface")};
 }
 
