@@ -5,7 +5,9 @@
 #include <cassert>
 #include <cstring>
 #include <iterator>
+#include <memory>
 #include <numeric>
+#include <optional>
 #include <type_traits>
 
 #include "framework/comm/communicator_impl.hpp"
@@ -69,6 +71,20 @@ bool have_common_item(std::vector<LocalIndex> a, std::vector<LocalIndex> b) {
   return !common.empty();
 }
 
+/// Bytes on their way; not set to anything before they are written.
+class Staging {
+ public:
+  /// Room for that many, at least; what was there is lost.
+  void reserve(std::size_t size) {
+    if (size > size_) bytes_ = std::make_unique_for_overwrite<std::byte[]>(size), size_ = size;
+  }
+  std::byte* data() const { return bytes_.get(); }
+
+ private:
+  std::unique_ptr<std::byte[]> bytes_;
+  std::size_t size_ = 0;
+};
+
 }  // namespace
 
 struct ExchangePlan::Impl {
@@ -95,9 +111,13 @@ struct ExchangePlan::Impl {
   Communicator comm;
   ExchangeCount& count;
   int tag;
-  RankLists send;        // items by rank that they go to
-  RankLists receive;     // places by rank that their content comes from
-  bool chained = false;  // some place that is written is also read, which matters if both are in one array
+  RankLists send;     // items by rank that they go to
+  RankLists receive;  // places by rank that their content comes from
+  /// Whether some place that is written is also read, which matters if both are in one array; found when it first does.
+  bool chained() {
+    if (!chained_) chained_ = have_common_item(send.values, receive.values);
+    return *chained_;
+  }
 
  private:
   void post_send(const std::byte* data, std::size_t bytes, int rank);
@@ -111,12 +131,13 @@ struct ExchangePlan::Impl {
   std::vector<ExchangeItem> arrays_;
   std::size_t bytes_per_item_ = 0;
   bool own_staged_ = false;
-  std::vector<std::byte> out_, in_, own_;
+  std::optional<bool> chained_;
+  Staging out_, in_, own_;
   std::vector<MPI_Request> requests_;
 };
 
 void ExchangePlan::Impl::finish_building() {
-  chained = have_common_item(send.values, receive.values);
+  chained_.reset();
   requests_.reserve(send.ranks.size() + receive.ranks.size());
 }
 
@@ -180,8 +201,8 @@ void ExchangePlan::Impl::begin(std::span<const ExchangeItem> arrays_in, Way way)
   ++count.calls;
   const RankLists &outgoing = from(way), &incoming = to(way);
   if (comm.size() > 1) {
-    in_.resize(std::max(in_.size(), incoming.values.size() * bytes_per_item_));
-    out_.resize(std::max(out_.size(), outgoing.values.size() * bytes_per_item_));
+    in_.reserve(incoming.values.size() * bytes_per_item_);
+    out_.reserve(outgoing.values.size() * bytes_per_item_);
   }
   for (std::size_t k = 0; k < incoming.ranks.size(); ++k)
     if (incoming.ranks[k] != comm.rank())
@@ -193,9 +214,9 @@ void ExchangePlan::Impl::begin(std::span<const ExchangeItem> arrays_in, Way way)
     pack(outgoing.list(k), place);
     post_send(place, outgoing.list(k).size() * bytes_per_item_, outgoing.ranks[k]);
   }
-  own_staged_ = chained && in_place;
+  own_staged_ = in_place && chained();
   if (own_staged_) {
-    own_.resize(std::max(own_.size(), own(outgoing).size() * bytes_per_item_));
+    own_.reserve(own(outgoing).size() * bytes_per_item_);
     pack(own(outgoing), own_.data());
   }
   if (way == Way::forward) copy_own(way);

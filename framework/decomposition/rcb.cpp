@@ -54,6 +54,65 @@ std::vector<int> Rcb::partition(std::span<const Vec3> coordinates, std::span<con
   return part;
 }
 
+namespace {
+
+bool is_finite(const Vec3& x) {
+  return std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]);
+}
+
+/// The box of a part, endless where it has no neighbour.
+Box box_of_part(Zoltan_Struct* zoltan, int part) {
+  Box box;
+  int dimension = 0;
+  if (Zoltan_RCB_Box(zoltan, part, &dimension, &box.low[0], &box.low[1], &box.low[2], &box.high[0], &box.high[1],
+                     &box.high[2]) != ZOLTAN_OK)
+    throw Error(ExitCode::usage, "Zoltan fails to give the box of a part");
+  return box;
+}
+
+}  // namespace
+
+std::vector<int> Rcb::partition_by_sample(std::span<const Vec3> coordinates, std::span<const double> weights) {
+  constexpr std::int64_t sample_of_rank = 20000;
+  const Communicator& comm = impl_->comm;
+  const std::int64_t all = comm.sum(static_cast<std::int64_t>(coordinates.size()));
+  const std::int64_t stride = all / (sample_of_rank * comm.size());
+  if (!impl_->zoltan || stride < 2) return partition(coordinates, weights);
+  std::vector<Vec3> sample;
+  std::vector<double> sample_weights;
+  for (std::size_t i = 0; i < coordinates.size(); i += static_cast<std::size_t>(stride)) {
+    sample.push_back(coordinates[i]);
+    if (!weights.empty()) sample_weights.push_back(weights[i]);
+  }
+  partition(sample, sample_weights);
+  std::vector<int> part(coordinates.size(), 0);
+  if (!impl_->has_cuts) return part;
+  constexpr int few = 16;
+  std::vector<Box> boxes;
+  for (int r = 0; r < comm.size() && comm.size() <= few; ++r) boxes.push_back(box_of_part(impl_->zoltan->get(), r));
+  int last = 0;
+  const auto holds = [&](int r, const Vec3& x) {
+    const Box& box = boxes[static_cast<std::size_t>(r)];
+    return box.low[0] <= x[0] && x[0] < box.high[0] && box.low[1] <= x[1] && x[1] < box.high[1] && box.low[2] <= x[2] &&
+           x[2] < box.high[2];
+  };
+  for (std::size_t i = 0; i < coordinates.size(); ++i) {
+    const Vec3& x = coordinates[i];
+    if (!is_finite(x)) continue;
+    if (boxes.empty()) {
+      double point[3] = {x[0], x[1], x[2]};
+      int rank = 0;
+      if (Zoltan_LB_Point_PP_Assign(impl_->zoltan->get(), point, &rank, &last) != ZOLTAN_OK)
+        throw Error(ExitCode::usage, "Zoltan fails to find the part that a point lies in");
+    } else if (!holds(last, x)) {
+      for (int r = 0; r < comm.size(); ++r)
+        if (holds(r, x)) last = r;
+    }
+    part[i] = last;
+  }
+  return part;
+}
+
 void Rcb::ranks_overlapping(const Box& box, std::vector<int>& ranks) const {
   if (box.empty()) return;
   if (!impl_->has_cuts) {

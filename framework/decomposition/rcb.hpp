@@ -22,6 +22,10 @@ class Rcb {
   /// a cut are decided by Zoltan: take the ownership from here, never from `rank_of`. Works with no points at all.
   std::vector<int> partition(std::span<const Vec3> coordinates, std::span<const double> weights);
 
+  /// Collective. The same with cuts from a sample of many points, and the part of each point by those cuts (one that
+  /// lies on a cut is in the upper part): much cheaper, and balanced to about a percent.
+  std::vector<int> partition_by_sample(std::span<const Vec3> coordinates, std::span<const double> weights);
+
   /// Ranks whose part overlaps the box, appended to `ranks` in ascending order. Local, after `partition`.
   void ranks_overlapping(const Box& box, std::vector<int>& ranks) const;
 

@@ -50,15 +50,18 @@ void DistributedSearch::move_points(std::span<const Vec3> points) {
 void DistributedSearch::search(const Communicator& comm, Rcb& rcb, std::span<const Box> boxes,
                                std::span<const Vec3> points, double reach, const std::string& name,
                                std::span<const float> work) {
-  std::vector<Vec3> items(points.begin(), points.end());
-  std::vector<double> weights(points.size(), 1.0);
+  std::vector<Vec3> items;
+  std::vector<double> weights;
+  items.reserve(points.size() + boxes.size()), weights.reserve(points.size() + boxes.size());
+  items.assign(points.begin(), points.end());
+  weights.assign(points.size(), 1.0);
   if (!work.empty()) std::copy(work.begin(), work.end(), weights.begin());
   for (const Box& box : boxes)
     if (is_finite(box)) {
       items.push_back(0.5 * (box.low + box.high));
       weights.push_back(box_weight);
     }
-  const std::vector<int> part = rcb.partition(items, weights);
+  const std::vector<int> part = rcb.partition_by_sample(items, weights);
 
   // A point stands in the part that the partition gave it, which may be on either side of a cut that it lies on; so
   // a box also goes where it only touches, with room for the rounding of the cut.
