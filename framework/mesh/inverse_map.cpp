@@ -119,6 +119,35 @@ Outcome newton(const Residual& f, const Vec3& start) {
   return best;
 }
 
+/// Newton damped by the natural level function [Deu04]: the next simplified step must be shorter. That does not change
+/// with the scales of x, so it gets along valleys of nearly collapsed elements, where the residual hardly falls.
+template <typename Residual>
+Outcome natural_newton(const Residual& f, const Vec3& start) {
+  Outcome best;
+  Vec3 xi = start;
+  double damp = 1;
+  for (int i = 0; i < most_iterations; ++i) {
+    const std::array<Vec3, 3> j = f.jacobian(xi);
+    Vec3 step;
+    const double determinant = solve(j, f.value(xi), step);
+    if (determinant == 0) break;
+    const double length = greatest(step), reach = 1 + greatest(xi);
+    if (length < 1e-9 * reach) {
+      best.map = {xi - step, true};
+      best.right_branch = determinant > 0;
+      break;
+    }
+    damp = std::min({1.0, 4 * damp, reach / length});
+    Vec3 next, simplified;
+    for (int halving = 0; halving < 30; ++halving, damp *= 0.5) {
+      next = xi - damp * step;
+      if (solve(j, f.value(next), simplified) != 0 && norm(simplified) <= (1 - 0.25 * damp) * norm(step)) break;
+    }
+    xi = next;
+  }
+  return best;
+}
+
 /// Newton from the centre, and, should that fail or end on a folded branch of the map, from eight places around it:
 /// of the solutions found on the right branch, that nearest to the element.
 template <typename Residual>
@@ -136,6 +165,9 @@ InverseMap search(ElementKind kind, const Residual& f) {
       best = other.map, best_right = other.right_branch, best_overshoot = outside;
     }
   }
+  if (best_right) return best;
+  for (const QuadraturePoint& q : quadrature(kind))
+    if (const Outcome other = natural_newton(f, q.xi); other.map.converged && other.right_branch) return other.map;
   return best;
 }
 
@@ -160,6 +192,13 @@ InverseMap curved_search(ElementKind kind, std::span<const Vec3> nodes, const Ve
   double least = usable ? outside : std::numeric_limits<double>::infinity();
   for (const QuadraturePoint& q : quadrature(kind)) {
     const Outcome other = newton(f, q.xi);
+    if (!other.map.converged || !other.right_branch) continue;
+    const double overshot = overshoot(kind, other.map.xi);
+    if (overshot < least) best = other.map, least = overshot;
+    if (least == 0) return best;
+  }
+  for (const QuadraturePoint& q : quadrature(kind == ElementKind::hex20 ? ElementKind::hex8 : ElementKind::tet4)) {
+    const Outcome other = natural_newton(f, q.xi);
     if (!other.map.converged || !other.right_branch) continue;
     const double overshot = overshoot(kind, other.map.xi);
     if (overshot < least) best = other.map, least = overshot;

@@ -283,6 +283,7 @@ class Comparison {
     if (there && there->overshoot <= 0) {
       ++count_.inside;
       if (found) return;
+      if (!(oracle.determinant(there->xi) > 0)) return;  // folded, between the places of the lattice
       ++count_.lost;
       tell("lost", probe, place, there->overshoot);
     } else {
