@@ -180,9 +180,9 @@ std::vector<double> FieldLink::waiting() const {
 std::vector<std::string> FieldLink::report() {
   const TransferReport r = map_->report(source_values_, target_values_, export_.field.components);
   std::vector<std::string> lines;
-  lines.push_back(fmt::format("{}.{} -> {}.{}: map built {} times, {} rebuilds skipped, applied {} times",
+  lines.push_back(fmt::format("{}.{} -> {}.{}: map built {} times, {} rebuilds skipped, applied {} times{}",
                               source().name(), export_.field.name, target().name(), import_.field.name, builds_,
-                              rebuilds_skipped_, runs()));
+                              rebuilds_skipped_, runs(), linear() ? ", linear between samples" : ""));
   lines.push_back(fmt::format("{} points sought, {} outside (greatest distance {:.3g} m at ({:.4g}, {:.4g}, {:.4g}))",
                               r.targets, r.outside, r.greatest_distance, r.farthest[0], r.farthest[1], r.farthest[2]));
   const std::string& unit = export_.field.unit;

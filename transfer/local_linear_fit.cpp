@@ -19,6 +19,9 @@ constexpr double nothing = 1e-12, something = 1e-10;
 constexpr double no_extent = 1e-26, some_extent = 1e-24;
 /// det / (trace / 3)^3 above which a covariance is inverted directly.
 constexpr double well_conditioned = 1e-4;
+/// |C^-1/2 m| at the edge of evenly spaced points: 0.4 at a face, 0.7 at an edge, 1.0 at a corner, and 3 half a spacing
+/// outside each (measured).
+constexpr double at_the_edge = 1.5;
 /// The root of the weighted mean square distance of evenly spaced points from their mean, times this, is about their
 /// spacing.
 constexpr double spacing_per_deviation = 1.5;
@@ -200,6 +203,7 @@ FitOutcome linear_fit(std::span<const Vec3> neighbours, bool all, const FitRules
     slope = multiply(inverse, -1.0 * mean);
   }
   outcome.deficient = !outcome.exact;
+  outcome.among = outcome.exact && -dot(slope, mean) < at_the_edge * at_the_edge;
   if (outcome.exact) {  // once more for what rounding left
     Vec3 left = mean;
     for (std::size_t i = 0; i < n; ++i) left = left + (omega[i] * dot(slope, y[i])) * y[i];

@@ -25,6 +25,7 @@ struct FitOutcome {
   double spacing = 0;      ///< of the points around, m; 0 if all neighbours coincide
   bool exact = false;      ///< linear fields are reproduced in all three directions
   bool deficient = false;  ///< they could not be, for want of points in some direction
+  bool among = false;      ///< t lies among the points, which extend in all directions
 };
 
 inline constexpr std::size_t max_neighbours = 64;

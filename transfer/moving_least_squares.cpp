@@ -20,7 +20,7 @@ namespace {
 struct RowHead {
   double distance = 0, spacing = 0;
   std::int32_t terms = 0;
-  bool exact = false, deficient = false;
+  bool exact = false, deficient = false, among = false;
 };
 static_assert(sizeof(RowHead) == sizeof(Term));
 
@@ -43,7 +43,7 @@ void fit_row(const Vec3& x, std::span<const NearPoint> near, bool all, const Fit
       const CloudPoint& p = *near[j].point;
       terms[count++] = {p.id, weight[j], p.owner, p.at_owner};
     }
-  const RowHead head{fit.distance, fit.spacing, static_cast<std::int32_t>(count), fit.exact, fit.deficient};
+  const RowHead head{fit.distance, fit.spacing, static_cast<std::int32_t>(count), fit.exact, fit.deficient, fit.among};
   std::memcpy(result.data(), &head, sizeof head);
   std::memcpy(result.data() + sizeof head, terms.data(), count * sizeof(Term));
 }
@@ -69,7 +69,7 @@ FittedRows fit_to(const Communicator& comm, std::span<const CloudPoint> cloud, s
     const auto row = terms.begin() + static_cast<std::ptrdiff_t>(i * width);
     RowHead head;
     std::memcpy(static_cast<void*>(&head), static_cast<const void*>(&*row), sizeof head);
-    fitted.fits.push_back({head.distance, head.spacing, head.exact, head.deficient});
+    fitted.fits.push_back({head.distance, head.spacing, head.exact, head.deficient, head.among});
     end = std::copy(row + 1, row + 1 + head.terms, end);
     fitted.rows.begin.push_back(end - terms.begin());
   }
@@ -132,7 +132,7 @@ FittedRows fit_rows(const Communicator& comm, const Items& items, std::span<cons
 }
 
 FittedPoint fitted_point(const FitOutcome& fit) {
-  return {fit.distance, fit.spacing, fit.distance > fit.spacing, fit.exact};
+  return {fit.distance, fit.spacing, fit.distance > fit.spacing && !fit.among, fit.exact};
 }
 
 /// A term of a column on its way to the owner of the target.

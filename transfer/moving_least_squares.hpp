@@ -24,7 +24,7 @@ struct MovingLeastSquaresOptions {
 struct FittedPoint {
   double distance = 0;   ///< to the nearest point of the cloud, m
   double spacing = 0;    ///< of the cloud there, m
-  bool outside = false;  ///< farther from the cloud than its points are from each other
+  bool outside = false;  ///< not among the points of the cloud, and farther from it than they are from each other
   bool exact = false;    ///< linear fields are reproduced in all directions
 };
 

@@ -320,5 +320,35 @@ TEST(BetweenSamples, ARestartInTheMiddleChangesNoBit) {
   }
 }
 
+TEST(BetweenSamples, ARunThatHeldCanGoOnLinearly) {
+  const std::string path = "between_samples_held." + std::to_string(communicator().size()) + ".h5";
+  Coupled held(1, {.step = 0.1, .given = line}, {.step = 0.03});
+  held.link("values", held.a, held.b, false, BetweenSamples::hold);
+  held.link("amounts", held.a, held.b, true, BetweenSamples::hold);
+  held.simulation.initialize();
+  while (held.simulation.time() < 0.5) held.simulation.step();
+  {
+    CheckpointWriter file(communicator(), path);
+    held.simulation.save(file);
+    file.finish();
+  }
+  Coupled rest(1, {.step = 0.1, .given = line}, {.step = 0.03});
+  rest.link("values", rest.a, rest.b, false, BetweenSamples::linear);
+  transfer::FieldLink& amounts = rest.link("amounts", rest.a, rest.b, true, BetweenSamples::linear);
+  {
+    const CheckpointReader file(communicator(), path);
+    rest.simulation.initialize(&file);
+  }
+  rest.simulation.run();
+  for (const auto& [time, value] : rest.b.at_end) {
+    // Two samples after the restart there is a line again.
+    EXPECT_LE(std::abs(value - line(time)), time > 0.75 ? 1e-13 : 2 * 0.14) << time;
+  }
+  EXPECT_EQ(rest.amount(amounts, 0), rest.amount(amounts, 1) + rest.amount(amounts, 2));
+  EXPECT_NE(amounts.report().front().find("linear between samples"), std::string::npos);
+  communicator().barrier();
+  if (communicator().rank() == 0) std::filesystem::remove(path);
+}
+
 }  // namespace
 }  // namespace tenon
