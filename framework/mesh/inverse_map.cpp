@@ -190,20 +190,17 @@ InverseMap curved_search(ElementKind kind, std::span<const Vec3> nodes, const Ve
   InverseMap best = first.map;
   best.converged = usable;
   double least = usable ? outside : std::numeric_limits<double>::infinity();
-  for (const QuadraturePoint& q : quadrature(kind)) {
-    const Outcome other = newton(f, q.xi);
-    if (!other.map.converged || !other.right_branch) continue;
-    const double overshot = overshoot(kind, other.map.xi);
-    if (overshot < least) best = other.map, least = overshot;
-    if (least == 0) return best;
-  }
-  for (const QuadraturePoint& q : quadrature(kind == ElementKind::hex20 ? ElementKind::hex8 : ElementKind::tet4)) {
-    const Outcome other = natural_newton(f, q.xi);
-    if (!other.map.converged || !other.right_branch) continue;
-    const double overshot = overshoot(kind, other.map.xi);
-    if (overshot < least) best = other.map, least = overshot;
-    if (least == 0) break;
-  }
+  const auto look_from = [&](const auto& solver) {
+    for (const QuadraturePoint& q : quadrature(kind == ElementKind::hex20 ? ElementKind::hex8 : ElementKind::tet4)) {
+      const Outcome other = solver(q.xi);
+      if (!other.map.converged || !other.right_branch) continue;
+      const double overshot = overshoot(kind, other.map.xi);
+      if (overshot < least) best = other.map, least = overshot;
+      if (least == 0) return;
+    }
+  };
+  look_from([&](const Vec3& start) { return newton(f, start); });
+  if (std::isinf(least)) look_from([&](const Vec3& start) { return natural_newton(f, start); });
   return best;
 }
 
