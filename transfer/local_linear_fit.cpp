@@ -152,6 +152,50 @@ void normalise(std::span<double> weights) {
   }
 }
 
+/// The neighbours about their weighted mean, in units of the radius.
+struct Stencil {
+  std::array<Vec3, max_neighbours> y;
+  Vec3 mean{};             ///< relative to t
+  Symmetric covariance{};  ///< of y
+};
+
+/// Makes the sum of `omega` 1.
+void take_stencil(std::span<const Vec3> neighbours, double radius, std::span<double> omega, Stencil& stencil) {
+  const double scale = 1 / radius;
+  double total = 0;
+  Vec3 mean{};
+  for (std::size_t i = 0; i < neighbours.size(); ++i)
+    total += omega[i], mean = mean + (omega[i] * scale) * neighbours[i];
+  stencil.mean = mean = (1 / total) * mean;
+  Symmetric c{};
+  for (std::size_t i = 0; i < neighbours.size(); ++i) {
+    omega[i] /= total;
+    const Vec3 y = scale * neighbours[i] - mean, wy = omega[i] * y;
+    c[0] += wy[0] * y[0], c[1] += wy[1] * y[1], c[2] += wy[2] * y[2];
+    c[3] += wy[0] * y[1], c[4] += wy[1] * y[2], c[5] += wy[2] * y[0];
+    stencil.y[i] = y;
+  }
+  stencil.covariance = c;
+}
+
+/// b of the weights omega (1 + b . y), -C^-1 m as far as points and trust allow.
+Vec3 fitted_slope(const Stencil& stencil, std::span<const double> omega, double trust, FitOutcome& outcome) {
+  const Vec3& mean = stencil.mean;
+  Symmetric inverse{};
+  outcome.exact = invert(stencil.covariance, inverse);
+  Vec3 slope = multiply(inverse, -1.0 * mean);
+  if (!outcome.exact || -dot(slope, mean) > trust * trust) {
+    outcome.exact = damped_inverse(stencil.covariance, -1.0 * mean, trust, inverse);
+    slope = multiply(inverse, -1.0 * mean);
+  }
+  outcome.deficient = !outcome.exact;
+  outcome.among = outcome.exact && -dot(slope, mean) < at_the_edge * at_the_edge;
+  if (!outcome.exact) return slope;
+  Vec3 left = mean;  // once more for what rounding left
+  for (std::size_t i = 0; i < omega.size(); ++i) left = left + (omega[i] * dot(slope, stencil.y[i])) * stencil.y[i];
+  return slope - multiply(inverse, left);
+}
+
 }  // namespace
 
 FitOutcome linear_fit(std::span<const Vec3> neighbours, bool all, const FitRules& rules, std::span<double> weights) {
@@ -165,59 +209,33 @@ FitOutcome linear_fit(std::span<const Vec3> neighbours, bool all, const FitRules
   FitOutcome outcome;
   outcome.distance = std::sqrt(nearest);
   const double radius = std::sqrt(farthest);
-  // Few points all count; of many, the farthest just begins to.
   const std::span<double> omega = weights.first(n);
-  if (farthest > nearest * (1 + 1e-10))
-    radial_weights(std::span(squared).first(n), all ? 1.5 * radius : radius, omega);
-  else
-    std::fill(omega.begin(), omega.end(), 1.0);
   if (!(radius > 0)) {  // all coincide with t
     std::fill(omega.begin(), omega.end(), 1.0 / static_cast<double>(n));
     normalise(omega);
     outcome.deficient = true;
     return outcome;
   }
+  // Few points all count; of many, the farthest just begins to.
+  if (farthest > nearest * (1 + 1e-10))
+    radial_weights(std::span(squared).first(n), all ? 1.5 * radius : radius, omega);
+  else
+    std::fill(omega.begin(), omega.end(), 1.0);
 
-  const double scale = 1 / radius;
-  double total = 0;
-  Vec3 mean{};
-  for (std::size_t i = 0; i < n; ++i) total += omega[i], mean = mean + (omega[i] * scale) * neighbours[i];
-  mean = (1 / total) * mean;
-  std::array<Vec3, max_neighbours> y;
-  Symmetric c{};
-  for (std::size_t i = 0; i < n; ++i) {
-    omega[i] /= total;
-    y[i] = scale * neighbours[i] - mean;
-    const Vec3 wy = omega[i] * y[i];
-    c[0] += wy[0] * y[i][0], c[1] += wy[1] * y[i][1], c[2] += wy[2] * y[i][2];
-    c[3] += wy[0] * y[i][1], c[4] += wy[1] * y[i][2], c[5] += wy[2] * y[i][0];
-  }
-  const double variance = c[0] + c[1] + c[2];
+  Stencil stencil;
+  take_stencil(neighbours, radius, omega, stencil);
+  const double variance = stencil.covariance[0] + stencil.covariance[1] + stencil.covariance[2];
   outcome.spacing = spacing_per_deviation * radius * std::sqrt(variance);
-
-  Symmetric inverse{};
-  outcome.exact = invert(c, inverse);
-  Vec3 slope = multiply(inverse, -1.0 * mean);
-  if (!outcome.exact || -dot(slope, mean) > rules.trust * rules.trust) {
-    outcome.exact = damped_inverse(c, -1.0 * mean, rules.trust, inverse);
-    slope = multiply(inverse, -1.0 * mean);
-  }
-  outcome.deficient = !outcome.exact;
-  outcome.among = outcome.exact && -dot(slope, mean) < at_the_edge * at_the_edge;
-  if (outcome.exact) {  // once more for what rounding left
-    Vec3 left = mean;
-    for (std::size_t i = 0; i < n; ++i) left = left + (omega[i] * dot(slope, y[i])) * y[i];
-    slope = slope - multiply(inverse, left);
-  }
+  Vec3 slope = fitted_slope(stencil, omega, rules.trust, outcome);
   double least = 0;
   for (std::size_t i = 0; i < n; ++i)
-    if (omega[i] > 0) least = std::min(least, dot(slope, y[i]));
+    if (omega[i] > 0) least = std::min(least, dot(slope, stencil.y[i]));
   if (rules.non_negative && least < -1) {
     slope = (-1 / least) * slope;
     outcome.exact = false;
   }
   for (std::size_t i = 0; i < n; ++i) {
-    weights[i] = omega[i] * (1 + dot(slope, y[i]));
+    weights[i] = omega[i] * (1 + dot(slope, stencil.y[i]));
     if (rules.non_negative) weights[i] = std::max(0.0, weights[i]);
   }
   normalise(omega);
