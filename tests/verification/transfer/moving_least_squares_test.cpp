@@ -257,7 +257,7 @@ TEST(MovingLeastSquares, NonNegativeWeightsAddNoExtrema) {
   }
 }
 
-TEST(MovingLeastSquares, TransposeKeepsTotalsAndMomentsThroughAThousandPingPongs) {
+TEST(MovingLeastSquares, TransposeKeepsTotalsAndMomentsThroughAHundredPingPongs) {
   // The target cloud covers the source, so that no fit has to stop extrapolating.
   std::vector<Vec3> wide = scattered(700, 4);
   for (Vec3& x : wide) x = 1.3 * x - Vec3{0.15, 0.15, 0.15};
