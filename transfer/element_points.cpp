@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "transfer/element_points.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace tenon::transfer {
 
 namespace {
@@ -123,6 +126,10 @@ double measure(const TabulatedPoint& point, ElementKind kind, const Corners& cor
   return topology(kind).dimension == 3 ? dot(normal, x_zeta) : norm(normal);
 }
 
+double edge_of(ElementKind kind, double measure) {
+  return topology(kind).dimension == 3 ? std::cbrt(measure) : std::sqrt(measure);
+}
+
 Vec3 position(const TabulatedPoint& point, int nodes, const Corners& corners) {
   Vec3 x{};
   for (int n = 0; n < nodes; ++n) {
@@ -159,6 +166,18 @@ std::vector<double> item_volumes(const Mesh& mesh, std::span<const Vec3> coordin
   if (location == Location::node && mesh.comm.size() > 1)
     mesh.node_halo.forward(std::span<const double>(volumes), std::span<double>(volumes));
   return volumes;
+}
+
+double mean_edge(const Mesh& mesh, std::span<const Vec3> coordinates) {
+  ExactSum edges;
+  for_each_element(mesh, [&](LocalIndex, const ElementBlock& block, LocalIndex e) {
+    if (block.owners[static_cast<std::size_t>(e)] != mesh.comm.rank()) return;
+    const Corners corners = corners_of(block, e, coordinates);
+    const double size = element_measure(block.kind, std::span(corners).first(block.nodes(e).size()));
+    edges.add(edge_of(block.kind, std::max(0.0, size)));
+  });
+  const double total = mesh.comm.sum(edges);
+  return mesh.global_elements > 0 ? total / static_cast<double>(mesh.global_elements) : 0.0;
 }
 
 }  // namespace tenon::transfer

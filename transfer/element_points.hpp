@@ -27,8 +27,13 @@ std::vector<TabulatedPoint> subdivision_points(ElementKind kind, int n);
 
 /// Volume over that of the reference element, det(dx/dxi), m^3; of a surface its area, |dx/dxi x dx/deta|, m^2.
 double measure(const TabulatedPoint& point, ElementKind kind, const Corners& corners);
+/// Edge of the cube (square) that is as large as the element, m.
+double edge_of(ElementKind kind, double measure);
 /// x, m.
 Vec3 position(const TabulatedPoint& point, int nodes, const Corners& corners);
+
+/// Collective. Mean of edge_of all elements, m.
+double mean_edge(const Mesh& mesh, std::span<const Vec3> coordinates);
 
 /// Collective. Volume of every local item, m^3 (area, m^2, of surfaces): of an element, or the integral of a node's
 /// shape function over all elements around it (the consistent mass matrix summed by rows).

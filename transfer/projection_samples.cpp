@@ -14,23 +14,6 @@ namespace {
 constexpr int fewest = 2, most = 6;                                  // sub-cells along an edge
 constexpr std::size_t small_batch = 1 << 14, large_batch = 1 << 18;  // points
 
-double edge_of(ElementKind kind, double measure) {
-  return topology(kind).dimension == 3 ? std::cbrt(measure) : std::sqrt(measure);
-}
-
-/// Collective. Mean edge of the elements, m.
-double mean_edge(const Side& side) {
-  ExactSum edges;
-  for_each_element(side.mesh, [&](LocalIndex, const ElementBlock& block, LocalIndex e) {
-    if (block.owners[static_cast<std::size_t>(e)] != side.mesh.comm.rank()) return;
-    const Corners corners = corners_of(block, e, side.coordinates);
-    edges.add(edge_of(block.kind,
-                      std::max(0.0, element_measure(block.kind, std::span(corners).first(block.nodes(e).size())))));
-  });
-  const double total = side.mesh.comm.sum(edges);
-  return side.mesh.global_elements > 0 ? total / static_cast<double>(side.mesh.global_elements) : 0.0;
-}
-
 /// Collective. Box around all containers of all ranks.
 Box box_of(const Communicator& comm, const Containers& containers) {
   Box mine;
@@ -236,7 +219,7 @@ const SampleTables::Table& SampleTables::table(ElementKind kind, int cells) {
 TargetSamples samples_in_target(const Side& source, const Side& target, const PlaceRules& rules, double per_edge,
                                 SampleTables& tables, const std::string& name) {
   const Communicator& comm = target.mesh.comm;
-  const double spacing = mean_edge(target) / per_edge;
+  const double spacing = mean_edge(target.mesh, target.coordinates) / per_edge;
   TargetSamples result;
   std::vector<Sample> arrived;
   {

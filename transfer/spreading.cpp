@@ -13,18 +13,6 @@ namespace {
 
 constexpr int fewest = 2, most = 6;  // sub-cells along an edge
 
-/// Collective. Edge of a cube as large as the mean element, m.
-double typical_size(const Side& side) {
-  ExactSum volume;
-  for_each_element(side.mesh, [&](LocalIndex, const ElementBlock& block, LocalIndex e) {
-    if (block.owners[static_cast<std::size_t>(e)] != side.mesh.comm.rank()) return;
-    const Corners corners = corners_of(block, e, side.coordinates);
-    volume.add(element_measure(block.kind, std::span(corners).first(block.nodes(e).size())));
-  });
-  const double total = side.mesh.comm.sum(volume);
-  return side.mesh.global_elements > 0 ? std::cbrt(total / static_cast<double>(side.mesh.global_elements)) : 0.0;
-}
-
 class Spreader {
  public:
   Spreader(const Side& source, double spacing, bool density) : source_(source), spacing_(spacing), density_(density) {}
@@ -75,7 +63,7 @@ class Spreader {
  private:
   const std::vector<TabulatedPoint>& points_for(ElementKind kind, double volume) {
     // The 0.01 keeps equal meshes at the fewest in spite of round-off.
-    const double cells = volume > 0 && spacing_ > 0 ? std::ceil(std::cbrt(volume) / spacing_ - 0.01) : 0.0;
+    const double cells = volume > 0 && spacing_ > 0 ? std::ceil(edge_of(kind, volume) / spacing_ - 0.01) : 0.0;
     const int n = static_cast<int>(std::clamp(cells, double{fewest}, double{most}));
     std::vector<TabulatedPoint>& table = subdivisions_[{kind, n}];
     if (table.empty()) table = subdivision_points(kind, n);
@@ -130,7 +118,7 @@ class Spreader {
 SpreadingPoints spreading_points(const Side& source, const Side& target, bool density) {
   // Two points along each edge of a target element, for its nodes; three if it is the element that counts them.
   const double points_per_edge = target.location == Location::node ? 2 : 3;
-  Spreader spreader(source, typical_size(target) / points_per_edge, density);
+  Spreader spreader(source, mean_edge(target.mesh, target.coordinates) / points_per_edge, density);
   if (source.location == Location::node && !density) {
     spreader.nodes();
   } else {
