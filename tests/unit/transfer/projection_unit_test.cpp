@@ -120,18 +120,14 @@ TEST(Projection, RefusesTargetsOfSecondOrder) {
   MeshData data = box(1);
   BlockData& block = data.blocks.front();
   block.kind = ElementKind::hex20;
-  const Topology& hex = topology(ElementKind::hex8);
-  ASSERT_EQ(hex.nodes, 8);
-  constexpr int edges[12][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 4}, {1, 5},
-                                {2, 6}, {3, 7}, {4, 5}, {5, 6}, {6, 7}, {7, 4}};
-  for (const auto& edge : edges) {
+  for (const auto& pair : middle_nodes(ElementKind::hex20)) {
     const auto corner = [&](int a) {
       return data.coordinates[static_cast<std::size_t>(block.connectivity[static_cast<std::size_t>(a)])];
     };
-    const Vec3 middle = 0.5 * (corner(edge[0]) + corner(edge[1]));
+    const Vec3 middle = 0.5 * (corner(pair[0]) + corner(pair[1]));
     block.connectivity.push_back(static_cast<GlobalId>(data.coordinates.size()));
-    data.node_labels.push_back(static_cast<std::int64_t>(data.coordinates.size()) + 1);
     data.coordinates.push_back(middle);
+    data.node_labels.push_back(static_cast<std::int64_t>(data.coordinates.size()));
   }
   data.side_sets.clear();
   const testing::MeshPointer source = distributed(box(2)), target = distributed(std::move(data));

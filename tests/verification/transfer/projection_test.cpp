@@ -88,12 +88,43 @@ void expect_linear(Pair pair, const ProjectionOptions& options) {
   for (std::size_t i = 0; i < result.size(); ++i) EXPECT_NEAR(result[i], exact[i], 1e-12);
 }
 
+void expect_kept(const Pair& pair, const ProjectionOptions& options) {
+  constexpr int components = 3;
+  const auto values = random_values(*pair.source, pair.from, components);
+  const ProjectionPair project(pair, options);
+  const auto result = project(values, components);
+  for (int c = 0; c < components; ++c) {
+    const double before = testing::integral(*pair.source, pair.from, values, components, c),
+                 after = testing::integral(*pair.target, pair.to, result, components, c);
+    EXPECT_LT(std::abs(after - before),
+              1e-13 * testing::integral_of_magnitude(*pair.source, pair.from, values, components, c));
+  }
+}
+
 TEST(Projection, LinearFieldsAreExact) {
   for (const Pair& pair : boxes()) expect_linear(pair, {});
 }
 
 TEST(Projection, LinearFieldsAreExactWherePlacesAreMissing) {
   for (const Pair& pair : misfits()) expect_linear(pair, {.keep_integral = false});
+}
+
+TEST(Projection, FromElementsOfSecondOrder) {
+  for (const bool tets : {false, true}) {
+    const Pair pair{distributed(testing::with_middle_nodes(box(3, {.tetrahedra = tets, .distortion = 0.2}))),
+                    distributed(box(5, {.tetrahedra = !tets, .distortion = 0.2, .seed = 4}), PartitionMethod::graph)};
+    expect_linear(pair, {});
+    expect_kept(pair, {});
+    // A quadratic field is known to the source exactly, so that its linear projection is as good as any.
+    const auto quadratic = [](const Vec3& x) { return x[0] * x[0] - x[1] * x[2] + 2 * x[2] * x[2]; };
+    const auto values = testing::sampled(*pair.source, Location::node, quadratic);
+    const double projected =
+                     testing::relative_l2_error(*pair.target, Location::node, ProjectionPair(pair)(values), quadratic),
+                 interpolated =
+                     testing::relative_l2_error(*pair.target, Location::node,
+                                                testing::sampled(*pair.target, Location::node, quadratic), quadratic);
+    EXPECT_LT(projected, 0.7 * interpolated);
+  }
 }
 
 TEST(Projection, ConstantsStayConstant) {
@@ -108,19 +139,6 @@ TEST(Projection, ConstantsStayConstant) {
         EXPECT_LT(testing::greatest_error(*pair.target, to, result, constant), 1e-12);
         EXPECT_EQ(project.projection().outcome().clipped, 0);
       }
-}
-
-void expect_kept(const Pair& pair, const ProjectionOptions& options) {
-  constexpr int components = 3;
-  const auto values = random_values(*pair.source, pair.from, components);
-  const ProjectionPair project(pair, options);
-  const auto result = project(values, components);
-  for (int c = 0; c < components; ++c) {
-    const double before = testing::integral(*pair.source, pair.from, values, components, c),
-                 after = testing::integral(*pair.target, pair.to, result, components, c);
-    EXPECT_LT(std::abs(after - before),
-              1e-13 * testing::integral_of_magnitude(*pair.source, pair.from, values, components, c));
-  }
 }
 
 TEST(Projection, KeepsTheIntegral) {

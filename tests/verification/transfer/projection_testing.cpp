@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "projection_testing.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "transfer/element_points.hpp"
 
@@ -22,6 +24,31 @@ std::vector<double> ProjectionPair::operator()(const std::vector<double>& values
                              std::numeric_limits<double>::quiet_NaN());
   projection_.apply(values, result, components);
   return result;
+}
+
+MeshData with_middle_nodes(MeshData mesh) {
+  std::map<std::pair<GlobalId, GlobalId>, GlobalId> middle;
+  for (BlockData& block : mesh.blocks) {
+    const auto corners = static_cast<std::size_t>(topology(block.kind).nodes);
+    block.kind = block.kind == ElementKind::hex8 ? ElementKind::hex20 : ElementKind::tet10;
+    std::vector<GlobalId> connectivity;
+    for (std::size_t first = 0; first < block.connectivity.size(); first += corners) {
+      const auto element = std::span(block.connectivity).subspan(first, corners);
+      connectivity.insert(connectivity.end(), element.begin(), element.end());
+      for (const auto& pair : middle_nodes(block.kind)) {
+        const GlobalId a = element[static_cast<std::size_t>(pair[0])], b = element[static_cast<std::size_t>(pair[1])];
+        const auto [place, added] =
+            middle.try_emplace(std::minmax({a, b}), static_cast<GlobalId>(mesh.coordinates.size()));
+        connectivity.push_back(place->second);
+        if (!added) continue;
+        mesh.coordinates.push_back(
+            0.5 * (mesh.coordinates[static_cast<std::size_t>(a)] + mesh.coordinates[static_cast<std::size_t>(b)]));
+        mesh.node_labels.push_back(static_cast<std::int64_t>(mesh.coordinates.size()));
+      }
+    }
+    block.connectivity = std::move(connectivity);
+  }
+  return mesh;
 }
 
 double integral(const Mesh& mesh, Location location, const std::vector<double>& values, int components, int component) {

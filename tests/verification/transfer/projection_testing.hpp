@@ -30,6 +30,9 @@ class ProjectionPair {
   Projection projection_;
 };
 
+/// The same mesh of elements of second order: hex8 as hex20, tet4 as tet10, with middle nodes halfway.
+MeshData with_middle_nodes(MeshData mesh);
+
 /// Collective. Integral of one component over the mesh.
 double integral(const Mesh& mesh, Location location, const std::vector<double>& values, int components = 1,
                 int component = 0);
