@@ -1,146 +1,176 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How wrong interpolated values may be, from gradients recovered at the source [ZZ87].
-//
-// Of a quadratic f with gradients g_a at the nodes x_a, sum N_a (f_a + g_a . (x - x_a) / 2) is exact, since
-// f_a + g_a . d / 2 = f(x) - g(x) . d / 2 with d = x - x_a and sum N_a d = 0. So sum N_a g_a . d / 2 estimates the
-// error of sum N_a f_a, of the size h^2 f'' / 8. Outside, g . (distance to the nearest point) is added. Element values
-// are constants: the error is g . (x - centre).
-#include <algorithm>
-#include <array>
-#include <cmath>
+#include "transfer/error_estimate.hpp"
 
-#include "framework/mesh/shape_functions.hpp"
-#include "transfer/element_points.hpp"
-#include "transfer/grid_transfer_impl.hpp"
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "transfer/recovered_gradient.hpp"
 
 namespace tenon::transfer {
 
-namespace {
+struct ErrorEstimate::Impl {
+  struct Sample {
+    LocalIndex item;
+    LocalIndex row;  ///< of the interpolation
+    Vec3 place;      ///< m
+  };
+  Communicator comm;
+  bool by_node;  ///< the source's values
+  std::vector<Sample> samples;
+  GlobalId count = 0;  ///< over all ranks
+  /// Rows of the samples; columns are places in the gathered arrays.
+  SparseRows<double> rows;
+  ExchangePlan gather;
+  std::vector<Vec3> places;  ///< of the gathered source items, m
+  std::unique_ptr<RecoveredGradient> gradient;
+  mutable std::vector<double> component, values;
+  mutable std::vector<Vec3> local, gradients;
 
-/// dN_a/dx of an element at its centre, 1/m, and its volume; without volume all are 0.
-struct CentreGradients {
-  std::array<Vec3, max_nodes> gradient{};
-  double volume = 0;
+  explicit Impl(const Side& source)
+      : comm(source.mesh.comm),
+        by_node(source.location == Location::node),
+        component(source.items.ids.size()),
+        local(source.items.ids.size()) {}
+  void choose(const Items& targets, std::span<const Vec3> where, GlobalId most);
+  void take_rows(const Side& source, const RowMap& interpolation, const std::string& name);
+  double better_value(std::size_t sample) const;
 };
 
-CentreGradients centre_gradients(ElementKind kind, const Corners& corners) {
-  CentreGradients result;
-  const auto nodes = static_cast<std::size_t>(topology(kind).nodes);
-  std::array<Vec3, max_nodes> local{};
-  shape_gradients(kind, element_centre(kind), local);
-  Vec3 x_xi{}, x_eta{}, x_zeta{};
-  for (std::size_t a = 0; a < nodes; ++a) {
-    x_xi = x_xi + local[a][0] * corners[a];
-    x_eta = x_eta + local[a][1] * corners[a];
-    x_zeta = x_zeta + local[a][2] * corners[a];
-  }
-  const Vec3 dxi = cross(x_eta, x_zeta), deta = cross(x_zeta, x_xi), dzeta = cross(x_xi, x_eta);
-  const double determinant = dot(x_xi, dxi);
-  if (!(determinant > 0)) return result;
-  result.volume = determinant;  // in units of the reference element: a weight for averages
-  for (std::size_t a = 0; a < nodes; ++a)
-    result.gradient[a] = 1 / determinant * (local[a][0] * dxi + (local[a][1] * deta + local[a][2] * dzeta));
-  return result;
-}
+namespace {
 
-/// Averages over the elements around each node, weighted by volume: `value(item, block, e, centre)` per element.
-template <typename T, typename Value>
-std::vector<T> averaged_at_nodes(const Partner& side, Value&& value) {
-  const Mesh& mesh = *side.mesh;
-  std::vector<T> sum(static_cast<std::size_t>(mesh.nodes()));
-  std::vector<double> volume(sum.size(), 0.0);
-  for_each_element(mesh, [&](LocalIndex item, const ElementBlock& block, LocalIndex e) {
-    const CentreGradients centre = centre_gradients(block.kind, corners_of(block, e, side.coordinates));
-    const T term = value(item, block, e, centre);
-    for (const LocalIndex node : block.nodes(e)) {
-      const auto n = static_cast<std::size_t>(node);
-      sum[n] = sum[n] + centre.volume * term;
-      volume[n] += centre.volume;
-    }
-  });
-  for (std::size_t n = 0; n < sum.size(); ++n)
-    if (volume[n] > 0) sum[n] = 1 / volume[n] * sum[n];
-  if (mesh.comm.size() > 1) mesh.node_halo.forward(std::span<const T>(sum), std::span<T>(sum));
-  return sum;
-}
-
-Vec3 gradient_in(const ElementBlock& block, LocalIndex e, const CentreGradients& centre,
-                 const std::vector<double>& nodal) {
-  Vec3 g{};
-  const auto nodes = block.nodes(e);
-  for (std::size_t a = 0; a < nodes.size(); ++a) g = g + nodal[static_cast<std::size_t>(nodes[a])] * centre.gradient[a];
-  return g;
-}
-
-/// Recovered gradients of one component at the source's items.
-std::vector<Vec3> recovered_gradients(const Partner& source, const std::vector<double>& values) {
-  if (source.location == Location::node)
-    return averaged_at_nodes<Vec3>(
-        source, [&](LocalIndex, const ElementBlock& block, LocalIndex e, const CentreGradients& centre) {
-          return gradient_in(block, e, centre, values);
-        });
-  const auto nodal =
-      averaged_at_nodes<double>(source, [&](LocalIndex item, const ElementBlock&, LocalIndex, const CentreGradients&) {
-        return values[static_cast<std::size_t>(item)];
-      });
-  std::vector<Vec3> gradients(source.items().ids.size());
-  for_each_element(*source.mesh, [&](LocalIndex item, const ElementBlock& block, LocalIndex e) {
-    const CentreGradients centre = centre_gradients(block.kind, corners_of(block, e, source.coordinates));
-    gradients[static_cast<std::size_t>(item)] = gradient_in(block, e, centre, nodal);
-  });
-  return gradients;
-}
-
-/// Places of all local items, m.
-std::vector<Vec3> places_of(const Partner& side) {
-  if (side.location != Location::element) return {side.coordinates.begin(), side.coordinates.end()};
-  std::vector<Vec3> places;
-  for_each_element(*side.mesh, [&](LocalIndex, const ElementBlock& block, LocalIndex e) {
-    places.push_back(centre_of(block.kind, corners_of(block, e, side.coordinates)));
-  });
-  return places;
-}
-
-std::vector<Vec3> gathered(const RowMap& map, const std::vector<Vec3>& values) {
-  return map.gathered(std::span<const Vec3>(values));
-}
-
-/// Greatest |estimate| over the rows of the owned items.
-double greatest_over_rows(const Partner& target, const RowMap& map, bool nodal, const std::vector<Vec3>& targets,
-                          const std::vector<Vec3>& x, const std::vector<Vec3>& g) {
-  double greatest = 0;
-  for (const LocalIndex item : target.items().owned) {
-    const auto i = static_cast<std::size_t>(item);
-    Vec3 nearest{}, slope{};
-    map.for_each_term(i, [&](std::size_t slot, double weight) {
-      nearest = nearest + weight * x[slot];
-      slope = slope + weight * g[slot];
-    });
-    double estimate = 0, terms = 0;
-    map.for_each_term(i, [&](std::size_t slot, double weight) {
-      terms += 1;
-      if (nodal) estimate += 0.5 * weight * dot(g[slot], nearest - x[slot]);
-    });
-    if (terms > 0) greatest = std::max(greatest, std::abs(estimate + dot(slope, targets[i] - nearest)));
-  }
-  return greatest;
+/// Spreads ids evenly [SLF14].
+std::uint64_t mixed(GlobalId id) {
+  auto z = static_cast<std::uint64_t>(id) + 0x9e3779b97f4a7c15;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
+  return z ^ (z >> 31);
 }
 
 }  // namespace
 
-double interpolation_error(const Partner& source, const Partner& target, const RowMap& map,
-                           std::span<const double> values, int components) {
-  const auto width = static_cast<std::size_t>(components);
-  const std::vector<Vec3> targets = places_of(target);
-  const std::vector<Vec3> x = gathered(map, places_of(source));
-  double greatest = 0;
-  std::vector<double> component(source.items().ids.size());
-  for (std::size_t c = 0; c < width; ++c) {
-    for (std::size_t i = 0; i < component.size(); ++i) component[i] = values[i * width + c];
-    const std::vector<Vec3> g = gathered(map, recovered_gradients(source, component));
-    greatest = std::max(greatest, greatest_over_rows(target, map, source.location == Location::node, targets, x, g));
+void ErrorEstimate::Impl::choose(const Items& targets, std::span<const Vec3> where, GlobalId most) {
+  const GlobalId all = comm.sum(static_cast<std::int64_t>(targets.owned.size()));
+  const auto every = static_cast<std::uint64_t>(most > 0 ? std::max<GlobalId>(1, all / most) : 1);
+  for (std::size_t k = 0; k < targets.owned.size(); ++k) {
+    const LocalIndex item = targets.owned[k];
+    if (mixed(targets.ids[static_cast<std::size_t>(item)]) % every == 0) samples.push_back({item, item, where[k]});
   }
-  return target.comm().max(greatest);
+  count = comm.sum(static_cast<std::int64_t>(samples.size()));
+}
+
+void ErrorEstimate::Impl::take_rows(const Side& source, const RowMap& interpolation, const std::string& name) {
+  std::vector<LocalIndex> here(source.items.ids.size());
+  std::iota(here.begin(), here.end(), LocalIndex{0});
+  const std::vector<int> owner = interpolation.gathered(source.items.owners);
+  const std::vector<LocalIndex> index = interpolation.gathered(std::span<const LocalIndex>(here));
+  SlotTable wanted;
+  const auto for_each_term = [&](auto&& visit) {
+    for (const Sample& sample : samples) {
+      interpolation.for_each_term(static_cast<std::size_t>(sample.row), [&](std::size_t slot, double weight) {
+        if (weight != 0) visit(owner[slot], index[slot], weight);
+      });
+      visit(-1, no_index, 0.0);  // end of the row
+    }
+  };
+  for_each_term([&](int rank, LocalIndex i, double) {
+    if (rank >= 0) wanted.mark(rank, i);
+  });
+  wanted.number();
+  for_each_term([&](int rank, LocalIndex i, double weight) {
+    if (rank < 0) {
+      rows.begin.push_back(static_cast<std::int64_t>(rows.column.size()));
+    } else {
+      rows.column.push_back(wanted.slot(rank, i));
+      rows.value.push_back(weight);
+    }
+  });
+  std::vector<LocalIndex> into(wanted.owners().size());
+  std::iota(into.begin(), into.end(), LocalIndex{0});
+  gather = ExchangePlan::from_owners(comm, wanted.owners(), wanted.indices(), into, name + ".gather");
+  places.resize(into.size()), values.resize(into.size()), gradients.resize(into.size());
+  gather.forward(std::span<const Vec3>(local_points(source)), std::span<Vec3>(places));
+
+  const ExchangePlan ask = ExchangePlan::to_ranks(comm, wanted.owners(), name + ".ask");
+  std::vector<LocalIndex> asked(static_cast<std::size_t>(ask.received()));
+  ask.forward(std::span<const LocalIndex>(wanted.indices()), std::span<LocalIndex>(asked));
+  std::sort(asked.begin(), asked.end());
+  asked.erase(std::unique(asked.begin(), asked.end()), asked.end());
+  gradient = std::make_unique<RecoveredGradient>(source, asked, name + ".means");
+}
+
+double ErrorEstimate::Impl::better_value(std::size_t sample) const {
+  Vec3 nearest{}, slope{};
+  double value = 0, correction = 0;
+  for (std::size_t k = rows.first(sample); k < rows.last(sample); ++k) {
+    const auto a = static_cast<std::size_t>(rows.column[k]);
+    nearest = nearest + rows.value[k] * places[a];
+    slope = slope + rows.value[k] * gradients[a];
+    value += rows.value[k] * values[a];
+  }
+  for (std::size_t k = rows.first(sample); by_node && k < rows.last(sample); ++k) {
+    const auto a = static_cast<std::size_t>(rows.column[k]);
+    correction += 0.5 * rows.value[k] * dot(gradients[a], nearest - places[a]);
+  }
+  return value + (correction + dot(slope, samples[sample].place - nearest));
+}
+
+ErrorEstimate::ErrorEstimate(const Side& source, const Items& targets, std::span<const Vec3> places,
+                             const RowMap& interpolation, GlobalId samples, const std::string& name)
+    : impl_(std::make_unique<Impl>(source)) {
+  impl_->choose(targets, places, samples);
+  impl_->take_rows(source, interpolation, name);
+}
+
+ErrorEstimate::ErrorEstimate(const Side& source, const Items& targets, std::span<const Vec3> places,
+                             const PlaceRules& rules, GlobalId samples, const std::string& name)
+    : impl_(std::make_unique<Impl>(source)) {
+  impl_->choose(targets, places, samples);
+  std::vector<Vec3> points;
+  for (Impl::Sample& sample : impl_->samples) {
+    sample.row = static_cast<LocalIndex>(points.size());
+    points.push_back(sample.place);
+  }
+  const Communicator& comm = source.mesh.comm;
+  const Containers containers = containers_of(source.mesh, source.coordinates, {}, rules.tolerance, name);
+  const std::vector<Placement> found = Locator(comm, rules, false, name + ".locate").find(containers, points);
+  const InterpolationSource from{containers.set, source.nodes, source.location, containers.set.stride,
+                                 source.items.ids.size()};
+  impl_->take_rows(source, interpolation_map(comm, from, found, false, 0.0, {}, name), name);
+}
+
+ErrorEstimate::ErrorEstimate(ErrorEstimate&&) noexcept = default;
+ErrorEstimate& ErrorEstimate::operator=(ErrorEstimate&&) noexcept = default;
+ErrorEstimate::~ErrorEstimate() = default;
+
+ErrorEstimate::Result ErrorEstimate::operator()(std::span<const double> source, std::span<const double> target,
+                                                int components) const {
+  const Impl& impl = *impl_;
+  const auto width = static_cast<std::size_t>(components);
+  Result result;
+  for (std::size_t c = 0; c < width; ++c) {
+    for (std::size_t i = 0; i < impl.component.size(); ++i) impl.component[i] = source[i * width + c];
+    impl.gradient->apply(impl.component, impl.local);
+    impl.gather.forward(std::span<const double>(impl.component), std::span<double>(impl.values));
+    impl.gather.forward(std::span<const Vec3>(impl.local), std::span<Vec3>(impl.gradients));
+    double greatest = 0;
+    ExactSum squares;
+    for (std::size_t s = 0; s < impl.samples.size(); ++s) {
+      if (impl.rows.first(s) == impl.rows.last(s)) continue;  // dropped: it has the outside value
+      const double error = target[static_cast<std::size_t>(impl.samples[s].item) * width + c] - impl.better_value(s);
+      greatest = std::max(greatest, std::abs(error));
+      squares.add(error * error);
+    }
+    result.greatest = std::max(result.greatest, impl.comm.max(greatest));
+    if (impl.count > 0)
+      result.mean_square =
+          std::max(result.mean_square, std::sqrt(impl.comm.sum(squares) / static_cast<double>(impl.count)));
+  }
+  return result;
+}
+
+GlobalId ErrorEstimate::samples() const {
+  return impl_->count;
 }
 
 }  // namespace tenon::transfer

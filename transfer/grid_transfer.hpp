@@ -80,8 +80,14 @@ struct TransferReport {
   double source_integral = 0;    ///< of the first component: sum of a total, integral of others
   double target_integral = 0;
   double mismatch = 0;        ///< |target - source| / scale of the integral of |f|
-  double error_estimate = 0;  ///< estimated greatest interpolation error, unit of the field (point values; else 0)
+  double error_estimate = 0;  ///< estimated greatest error, unit of the field (not of totals, nor from points: 0)
   GlobalId skipped = 0;       ///< elements without volume, in which no point was sought
+};
+
+/// How much a report may cost.
+enum class Thoroughness {
+  full,    ///< the error estimate looks at every target: a few microseconds each
+  sampled  ///< at about a thousand of them, chosen by their ids
 };
 
 /// One field of several that share a map and travel in one message per neighbour.
@@ -127,7 +133,8 @@ class GridTransfer {
   bool update(std::span<const Vec3> source_coordinates, std::span<const Vec3> target_coordinates);
 
   /// Collective. Misses of the map, and integrals and error estimate of these values.
-  TransferReport report(std::span<const double> source, std::span<const double> target, int components) const;
+  TransferReport report(std::span<const double> source, std::span<const double> target, int components,
+                        Thoroughness thoroughness = Thoroughness::full) const;
   /// Local: bytes of the map; how often it was built and applied.
   std::int64_t memory() const;
   std::int64_t built() const;

@@ -79,6 +79,10 @@ struct GridTransfer::Impl {
   void conserve_onto_points();
   bool copy();
   void apply(std::span<const TransferItem> fields) const;
+  /// Collective. Estimate of the greatest error of the values, unit of the field, from about `samples` targets (0:
+  /// all).
+  double error(std::span<const double> source_values, std::span<const double> target_values, int components,
+               GlobalId samples) const;
 };
 
 /// Collective. Counts points outside and finds the farthest (of equals, that of the smallest id).
@@ -120,9 +124,5 @@ double mean_spacing(const Partner& partner);
 
 /// Collective. Whether both meshes have moved as one rigid body since their maps were built, to `tolerance` (m).
 bool moved_rigidly(const Partner& source, const Partner& target, double tolerance);
-
-/// Collective. Estimate of the greatest error of interpolated values, unit of the field.
-double interpolation_error(const Partner& source, const Partner& target, const RowMap& map,
-                           std::span<const double> values, int components);
 
 }  // namespace tenon::transfer
