@@ -126,6 +126,42 @@ double measure(const TabulatedPoint& point, ElementKind kind, const Corners& cor
   return topology(kind).dimension == 3 ? dot(normal, x_zeta) : norm(normal);
 }
 
+PointTable::PointTable(ElementKind kind, std::vector<TabulatedPoint> points)
+    : kind_(kind), points_(std::move(points)), padded_((points_.size() + lanes - 1) / lanes * lanes) {
+  const auto nodes = static_cast<std::size_t>(topology(kind).nodes);
+  gradient_.assign(nodes * 3 * padded_, 0.0);
+  weight_.assign(padded_, 0.0);
+  for (std::size_t q = 0; q < points_.size(); ++q) {
+    weight_[q] = points_[q].weight;
+    for (std::size_t a = 0; a < nodes; ++a)
+      for (std::size_t j = 0; j < 3; ++j) gradient_[(3 * a + j) * padded_ + q] = points_[q].gradient[a][j];
+  }
+}
+
+void PointTable::volumes(const Corners& corners, std::span<double> volumes) const {
+  const auto nodes = static_cast<std::size_t>(topology(kind_).nodes);
+  const bool solid = topology(kind_).dimension == 3;
+  using Lanes = std::array<double, lanes>;
+  for (std::size_t first = 0; first < points_.size(); first += lanes) {
+    std::array<Lanes, 9> j{};  // dx_c/dxi_i at 3 i + c
+    for (std::size_t a = 0; a < nodes; ++a)
+      for (std::size_t i = 0; i < 3; ++i) {
+        const double* const g = gradient_.data() + (3 * a + i) * padded_ + first;
+        for (std::size_t c = 0; c < 3; ++c)
+          for (std::size_t l = 0; l < lanes; ++l) j[3 * i + c][l] += g[l] * corners[a][c];
+      }
+    Lanes result;
+    for (std::size_t l = 0; l < lanes; ++l) {
+      const double x = j[1][l] * j[5][l] - j[2][l] * j[4][l], y = j[2][l] * j[3][l] - j[0][l] * j[5][l],
+                   z = j[0][l] * j[4][l] - j[1][l] * j[3][l];
+      const double measure = solid ? (x * j[6][l] + y * j[7][l]) + z * j[8][l] : std::sqrt((x * x + y * y) + z * z);
+      result[l] = weight_[first + l] * measure;
+    }
+    const std::size_t count = std::min(lanes, points_.size() - first);
+    std::copy_n(result.begin(), count, volumes.begin() + static_cast<std::ptrdiff_t>(first));
+  }
+}
+
 double edge_of(ElementKind kind, double measure) {
   return topology(kind).dimension == 3 ? std::cbrt(measure) : std::sqrt(measure);
 }
@@ -143,16 +179,20 @@ std::vector<double> item_volumes(const Mesh& mesh, std::span<const Vec3> coordin
   std::vector<double> volumes(static_cast<std::size_t>(item_count(mesh, location)), 0.0);
   std::size_t item = 0;
   for (const ElementBlock& block : mesh.blocks) {
-    const std::vector<TabulatedPoint> points = quadrature_points(block.kind);
+    const PointTable table(block.kind, quadrature_points(block.kind));
+    std::vector<double> weights(table.points().size());
     for (LocalIndex e = 0; e < block.size(); ++e, ++item) {
       const Corners corners = corners_of(block, e, coordinates);
       const auto connectivity = block.nodes(e);
       std::array<double, max_nodes> share{};
       double volume = 0;
-      for (const TabulatedPoint& point : points) {
-        const double w = point.weight * measure(point, block.kind, corners);
-        volume += w;
-        for (std::size_t a = 0; a < connectivity.size(); ++a) share[a] += w * point.value[a];
+      table.volumes(corners, weights);
+      for (std::size_t q = 0; q < weights.size(); ++q) {
+        volume += weights[q];
+        // To the end of what linear kinds have: of fixed length, with zeros behind.
+        for (std::size_t a = 0; a < max_linear_nodes; ++a) share[a] += weights[q] * table.points()[q].value[a];
+        for (std::size_t a = max_linear_nodes; a < connectivity.size(); ++a)
+          share[a] += weights[q] * table.points()[q].value[a];
       }
       if (location == Location::element) {
         volumes[item] = volume;

@@ -27,6 +27,25 @@ std::vector<TabulatedPoint> subdivision_points(ElementKind kind, int n);
 
 /// Volume over that of the reference element, det(dx/dxi), m^3; of a surface its area, |dx/dxi x dx/deta|, m^2.
 double measure(const TabulatedPoint& point, ElementKind kind, const Corners& corners);
+/// The same for all points of a table at once, eight at a time.
+class PointTable {
+ public:
+  PointTable() = default;
+  PointTable(ElementKind kind, std::vector<TabulatedPoint> points);
+  ElementKind kind() const { return kind_; }
+  const std::vector<TabulatedPoint>& points() const { return points_; }
+  /// Volume (area) that each point stands for: its weight times `measure`.
+  void volumes(const Corners& corners, std::span<double> volumes) const;
+
+ private:
+  static constexpr std::size_t lanes = 8;
+  ElementKind kind_ = ElementKind::hex8;
+  std::vector<TabulatedPoint> points_;
+  std::size_t padded_ = 0;        ///< number of points, to a multiple of lanes
+  std::vector<double> gradient_;  ///< [node][direction][point]
+  std::vector<double> weight_;
+};
+
 /// Edge of the cube (square) that is as large as the element, m.
 double edge_of(ElementKind kind, double measure);
 /// x, m.

@@ -178,7 +178,8 @@ std::vector<double> FieldLink::waiting() const {
 }
 
 std::vector<std::string> FieldLink::report() {
-  const TransferReport r = map_->report(source_values_, target_values_, export_.field.components);
+  const TransferReport r =
+      map_->report(source_values_, target_values_, export_.field.components, Thoroughness::sampled);
   std::vector<std::string> lines;
   lines.push_back(fmt::format("{}.{} -> {}.{}: map built {} times, {} rebuilds skipped, applied {} times{}",
                               source().name(), export_.field.name, target().name(), import_.field.name, builds_,

@@ -135,6 +135,9 @@ class GridTransfer {
   /// Collective. Misses of the map, and integrals and error estimate of these values.
   TransferReport report(std::span<const double> source, std::span<const double> target, int components,
                         Thoroughness thoroughness = Thoroughness::full) const;
+  /// Collective. What `back`, a map of the opposite direction, makes of transferred values: the greatest difference
+  /// from these values, unit of the field.
+  double round_trip_error(const GridTransfer& back, std::span<const double> source, int components) const;
   /// Local: bytes of the map; how often it was built and applied.
   std::int64_t memory() const;
   std::int64_t built() const;

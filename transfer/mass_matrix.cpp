@@ -44,20 +44,36 @@ int iterations_for(double least) {
 
 }  // namespace
 
-NodeElements node_elements(const Mesh& mesh) {
+namespace {
+
+template <typename Wanted>
+NodeElements elements_around(const Mesh& mesh, Wanted wanted) {
   NodeElements result;
   result.begin.assign(static_cast<std::size_t>(mesh.nodes()) + 1, 0);
   for (const ElementBlock& block : mesh.blocks)
-    for (const LocalIndex n : block.connectivity) ++result.begin[static_cast<std::size_t>(n) + 1];
+    for (const LocalIndex n : block.connectivity) result.begin[static_cast<std::size_t>(n) + 1] += wanted(n);
   for (std::size_t n = 1; n < result.begin.size(); ++n) result.begin[n] += result.begin[n - 1];
   result.entries.resize(result.begin.back());
   std::vector<std::size_t> next(result.begin.begin(), result.begin.end() - 1);
   for_each_element(mesh, [&](LocalIndex item, const ElementBlock& block, LocalIndex e) {
     const auto nodes = block.nodes(e);
     for (std::size_t a = 0; a < nodes.size(); ++a)
-      result.entries[next[static_cast<std::size_t>(nodes[a])]++] = {item, static_cast<std::int32_t>(a)};
+      if (wanted(nodes[a]))
+        result.entries[next[static_cast<std::size_t>(nodes[a])]++] = {item, static_cast<std::int32_t>(a)};
   });
   return result;
+}
+
+}  // namespace
+
+NodeElements node_elements(const Mesh& mesh) {
+  return elements_around(mesh, [](LocalIndex) { return true; });
+}
+
+NodeElements node_elements(const Mesh& mesh, std::span<const LocalIndex> nodes) {
+  std::vector<char> wanted(static_cast<std::size_t>(mesh.nodes()), 0);
+  for (const LocalIndex n : nodes) wanted[static_cast<std::size_t>(n)] = 1;
+  return elements_around(mesh, [&](LocalIndex n) { return wanted[static_cast<std::size_t>(n)] != 0; });
 }
 
 MassMatrix::MassMatrix(const Side& side, const NodeElements& around) : mesh_(&side.mesh) {
@@ -91,15 +107,17 @@ void MassMatrix::fill(const Side& side) {
     row_of[static_cast<std::size_t>(side.mesh.owned_nodes[k])] = static_cast<LocalIndex>(k);
   std::vector<double> value(rows_.column.size(), 0.0);
   for (const ElementBlock& block : side.mesh.blocks) {
-    const std::vector<TabulatedPoint> points = quadrature_points(block.kind);
+    const PointTable table(block.kind, quadrature_points(block.kind));
+    std::vector<double> weights(table.points().size());
     for (LocalIndex e = 0; e < block.size(); ++e) {
       const Corners corners = corners_of(block, e, side.coordinates);
       const auto nodes = block.nodes(e);
-      std::array<std::array<double, max_nodes>, max_nodes> mass{};
-      for (const TabulatedPoint& point : points) {
-        const double w = point.weight * measure(point, block.kind, corners);
+      std::array<std::array<double, max_linear_nodes>, max_linear_nodes> mass{};
+      table.volumes(corners, weights);
+      for (std::size_t q = 0; q < weights.size(); ++q) {
+        const std::array<double, max_nodes>& shape = table.points()[q].value;
         for (std::size_t a = 0; a < nodes.size(); ++a)
-          for (std::size_t b = 0; b < nodes.size(); ++b) mass[a][b] += w * point.value[a] * point.value[b];
+          for (std::size_t b = 0; b < max_linear_nodes; ++b) mass[a][b] += weights[q] * shape[a] * shape[b];
       }
       for (std::size_t a = 0; a < nodes.size(); ++a) {
         const LocalIndex row = row_of[static_cast<std::size_t>(nodes[a])];

@@ -24,6 +24,8 @@ struct NodeElements {
   }
 };
 NodeElements node_elements(const Mesh& mesh);
+/// The same for some nodes only; the others have none.
+NodeElements node_elements(const Mesh& mesh, std::span<const LocalIndex> nodes);
 
 /// M_ij = integral of N_i N_j over the mesh, m^3, in rows of the owned nodes; kept in single precision, as only an
 /// approximate inverse is asked of it.

@@ -59,7 +59,10 @@ class Candidates {
     if (!(volume > 0)) return;
     const double wanted = spacing_ > 0 ? std::floor(edge_of(block.kind, volume) / spacing_ + 0.51) : 0.0;
     const int cells = static_cast<int>(std::clamp(wanted, double{fewest}, double{most}));
-    const std::vector<TabulatedPoint>& table = tables_.of(block.kind, cells);
+    const PointTable& points_of_kind = tables_.of(block.kind, cells);
+    const std::vector<TabulatedPoint>& table = points_of_kind.points();
+    volumes_.resize(table.size());
+    points_of_kind.volumes(corners, volumes_);
     sought += static_cast<std::int64_t>(table.size());
     Sample sample;
     sample.source_element = block.ids[static_cast<std::size_t>(element_)];
@@ -70,7 +73,7 @@ class Candidates {
     for (std::size_t q = 0; q < table.size(); ++q) {
       const Vec3 x = position(table[q], static_cast<int>(nodes), corners);
       if (!box_.contains(x)) continue;
-      sample.weight = table[q].weight * measure(table[q], block.kind, corners);
+      sample.weight = volumes_[q];
       if (!(sample.weight > 0)) continue;
       sample.point = static_cast<std::uint16_t>(q);
       points.push_back(x);
@@ -82,6 +85,7 @@ class Candidates {
   Box box_;
   double spacing_;
   SampleTables& tables_;
+  std::vector<double> volumes_;
   std::size_t block_ = 0;
   LocalIndex element_ = 0, item_ = 0;
 };
@@ -206,11 +210,11 @@ const SampleTables::Table& SampleTables::table(ElementKind kind, int cells) {
   const auto n = static_cast<std::size_t>(cells);
   if (tables.size() <= n) tables.resize(n + 1);
   Table& table = tables[n];
-  if (!table.points.empty()) return table;
-  table.points = subdivision_points(kind, cells);
+  if (!table.values.empty()) return table;
+  table.points = PointTable(kind, subdivision_points(kind, cells));
   const auto width =
       static_cast<std::size_t>(topology(kind).nodes <= max_linear_nodes ? max_linear_nodes : max_element_nodes);
-  for (const TabulatedPoint& point : table.points)
+  for (const TabulatedPoint& point : table.points.points())
     table.values.insert(table.values.end(), point.value.begin(),
                         point.value.begin() + static_cast<std::ptrdiff_t>(width));
   return table;

@@ -27,13 +27,13 @@ struct Sample {
 /// The tables of quadrature points by kind of element and number of cells along an edge, made when first asked for.
 class SampleTables {
  public:
-  const std::vector<TabulatedPoint>& of(ElementKind kind, int cells) { return table(kind, cells).points; }
+  const PointTable& of(ElementKind kind, int cells) { return table(kind, cells).points; }
   /// Their shape functions alone, padded to max_linear_nodes or max_nodes for each point.
   std::span<const double> values(ElementKind kind, int cells) { return table(kind, cells).values; }
 
  private:
   struct Table {
-    std::vector<TabulatedPoint> points;
+    PointTable points;
     std::vector<double> values;
   };
   const Table& table(ElementKind kind, int cells);

@@ -82,7 +82,7 @@ RecoveredGradient::RecoveredGradient(const Side& side, std::span<const LocalInde
 }
 
 void RecoveredGradient::at_nodes(const Side& side, std::span<const LocalIndex> wanted) {
-  const NodeElements around = node_elements(side.mesh);
+  const NodeElements around = node_elements(side.mesh, wanted);
   const std::vector<ElementAt> elements = elements_of(side.mesh);
   std::vector<LocalIndex> nodes;
   std::vector<Vec3> sums;
@@ -132,7 +132,7 @@ void RecoveredGradient::in_elements(const Side& side, std::span<const LocalIndex
   std::vector<LocalIndex> nodes(static_cast<std::size_t>(means_.received()));
   means_.forward(std::span<const LocalIndex>(asked.indices()), std::span<LocalIndex>(nodes));
 
-  const NodeElements around = node_elements(side.mesh);
+  const NodeElements around = node_elements(side.mesh, nodes);
   std::vector<Vec3> mean_places;
   for (const LocalIndex n : nodes) {
     double volume = 0;

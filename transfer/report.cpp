@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a transfer tells about itself: integrals on both sides and how far off the values may be.
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -40,15 +42,14 @@ double GridTransfer::Impl::error(std::span<const double> source_values, std::spa
                                        ? item_points(target.side())
                                        : std::vector<Vec3>(target.coordinates.begin(), target.coordinates.end());
   const std::string estimate = name + ".estimate";
-  // With nothing but copies there is nothing to estimate; other methods than interpolation need one.
-  if (method == Method::interpolate)
-    return ErrorEstimate(source.side(), target.items(), places, map, samples, estimate)(source_values, target_values,
-                                                                                        components)
+  const auto greatest = [&](const auto& rows) {
+    return ErrorEstimate(source.side(), target.items(), places, rows, samples, estimate)(source_values, target_values,
+                                                                                         components)
         .greatest;
-  const PlaceRules rules{options.tolerance, options.outside == OutsidePolicy::extrapolate};
-  return ErrorEstimate(source.side(), target.items(), places, rules, samples, estimate)(source_values, target_values,
-                                                                                        components)
-      .greatest;
+  };
+  // Rows of amounts do not say where a target lies.
+  if (method != Method::conserve && method != Method::project) return greatest(map);
+  return greatest(PlaceRules{options.tolerance, options.outside == OutsidePolicy::extrapolate});
 }
 
 TransferReport GridTransfer::report(std::span<const double> source, std::span<const double> target, int components,
@@ -71,6 +72,27 @@ TransferReport GridTransfer::report(std::span<const double> source, std::span<co
   if (!total && impl_->source.mesh && !impl_->copied)
     report.error_estimate = impl_->error(source, target, components, thoroughness == Thoroughness::full ? 0 : few);
   return report;
+}
+
+double GridTransfer::round_trip_error(const GridTransfer& back, std::span<const double> source, int components) const {
+  const auto width = static_cast<std::size_t>(components);
+  std::vector<double> there(impl_->target.items().ids.size() * width), here(source.size());
+  const TransferItem forth{source, there, components}, home{there, here, components};
+  const bool leads_back = back.impl_->source.items().ids.size() * width == there.size() &&
+                          back.impl_->target.items().ids.size() * width == here.size();
+  if (impl_->comm().any(!leads_back))
+    throw Error(ExitCode::usage, fmt::format("transfer '{}': '{}' does not lead back to where it comes from",
+                                             impl_->name, back.impl_->name));
+  impl_->apply(std::span(&forth, 1));
+  back.impl_->apply(std::span(&home, 1));
+  --impl_->applied, --back.impl_->applied;  // nobody's values
+  double greatest = 0;
+  for (const LocalIndex item : impl_->source.items().owned)
+    for (std::size_t c = 0; c < width; ++c) {
+      const std::size_t i = static_cast<std::size_t>(item) * width + c;
+      greatest = std::max(greatest, std::abs(here[i] - source[i]));
+    }
+  return impl_->comm().max(greatest);
 }
 
 }  // namespace tenon::transfer
