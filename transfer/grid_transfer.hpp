@@ -82,6 +82,10 @@ struct TransferReport {
   double mismatch = 0;        ///< |target - source| / scale of the integral of |f|
   double error_estimate = 0;  ///< estimated greatest error, unit of the field (not of totals, nor from points: 0)
   GlobalId skipped = 0;       ///< elements without volume, in which no point was sought
+  /// Of project, at the last application; the worst of all components.
+  double spread = 0;     ///< integral that was spread to make up for the rest, over the integral of |f|
+  GlobalId clipped = 0;  ///< values that were brought back within their bounds
+  double unplaced = 0;   ///< integral that found no room within the bounds, over the integral of |f|
 };
 
 /// How much a report may cost.

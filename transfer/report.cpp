@@ -71,6 +71,10 @@ TransferReport GridTransfer::report(std::span<const double> source, std::span<co
   report.mismatch = from.magnitude > 0 ? difference / from.magnitude : difference;
   if (!total && impl_->source.mesh && !impl_->copied)
     report.error_estimate = impl_->error(source, target, components, thoroughness == Thoroughness::full ? 0 : few);
+  if (impl_->projection) {
+    const ProjectionOutcome& outcome = impl_->projection->outcome();
+    report.spread = outcome.spread, report.clipped = outcome.clipped, report.unplaced = outcome.unplaced;
+  }
   return report;
 }
 
