@@ -136,6 +136,9 @@ class TransferRun {
       result_ = read_source(arguments_, settings_);
       target = read_target(arguments_, settings_);
       time_ = result_.time;
+      for (const auto* mesh : {&result_.mesh, &target})
+        for (const std::string& warning : mesh->warnings)
+          fmt::print(stderr, "{}: warning: {}\n", mesh->source, warning);
     });
     plan_ = plan_fields(arguments_, broadcast_fields(comm_, result_.fields));
     comm_.vote_on_root([&] {

@@ -117,6 +117,20 @@ OutsidePolicy outside_policy(const std::string& text, double& value) {
   return named(all, text, "--outside", "policy");
 }
 
+PlannedField planned(const TransferArguments& arguments, const FieldData& stored, const std::string& method) {
+  const std::string& name = stored.description.name;
+  if (!stored.missing.empty())
+    refuse(fmt::format("--fields: '{}' has no values on {} of {}", name, stored.missing, arguments.source));
+  const Names<Location> places{{"nodes", Location::node}, {"elements", Location::element}};
+  PlannedField field;
+  field.method = method.empty() ? named(methods(), arguments.method, "--method", "method")
+                                : named(methods(), method, "--fields " + name, "method");
+  field.description = stored.description;
+  field.description.kind = kind_of(name, field.method);
+  field.to = arguments.at.empty() ? stored.description.location : named(places, arguments.at, "--at", "place");
+  return field;
+}
+
 std::string output_path(const TransferArguments& arguments) {
   namespace fs = std::filesystem;
   if (arguments.output.empty()) return fs::path(arguments.target).stem().string() + ".fields.vtu";
@@ -166,39 +180,34 @@ bool PlannedField::shares_map(const PlannedField& other) const {
 }
 
 std::vector<PlannedField> plan_fields(const TransferArguments& arguments, const std::vector<FieldData>& fields) {
+  if (fields.empty()) refuse(fmt::format("{}: has no fields to transfer", arguments.source));
   std::vector<std::string> names;
   for (const FieldData& field : fields) names.push_back(field.description.name);
-  if (fields.empty()) refuse(fmt::format("{}: has no fields to transfer", arguments.source));
   const auto index = [&](const std::string& name, const char* option) {
     const auto found = std::ranges::find(names, name);
     if (found == names.end())
       refuse(fmt::format("{}: {} has no field '{}'{}", option, arguments.source, name, scene::suggestion(name, names)));
     return static_cast<std::size_t>(found - names.begin());
   };
-  const Names<Location> places{{"nodes", Location::node}, {"elements", Location::element}};
-
   std::vector<PlannedField> plan;
-  for (const std::string& text : arguments.fields.empty() ? names : arguments.fields) {
+  const auto add = [&](std::size_t stored, const std::string& method) {
+    if (std::ranges::any_of(plan, [&](const PlannedField& p) { return p.stored == stored; })) return;
+    plan.push_back(planned(arguments, fields[stored], method));
+    plan.back().stored = stored;
+  };
+  for (const std::string& text : arguments.fields) {
     const auto [name, method] = parted(text, names);
-    PlannedField field;
-    field.stored = index(name, "--fields");
-    const FieldData& stored = fields[field.stored];
-    if (!stored.missing.empty())
-      refuse(fmt::format("--fields: '{}' has no values on {} of {}", name, stored.missing, arguments.source));
-    field.method = named(methods(), method.empty() ? arguments.method : method, "--fields " + text, "method");
-    field.description = stored.description;
-    field.description.kind = kind_of(name, field.method);
-    field.to = arguments.at.empty() ? stored.description.location : named(places, arguments.at, "--at", "place");
-    if (std::ranges::any_of(plan, [&](const PlannedField& p) { return p.stored == field.stored; })) continue;
-    plan.push_back(std::move(field));
+    add(index(name, "--fields"), method);
   }
+  if (arguments.fields.empty())
+    for (std::size_t stored = 0; stored < fields.size(); ++stored) add(stored, "");
   for (const std::string& text : arguments.kinds) {
     const auto [name, kind] = parted(text, {});
     if (kind.empty()) refuse(fmt::format("--kind: '{}' is not of the form NAME:KIND, as heat:total", text));
-    const std::size_t stored = index(name, "--kind");
+    index(name, "--kind");
     const FieldKind value = named(kinds(), kind, "--kind " + text, "kind");
     for (PlannedField& field : plan)
-      if (field.stored == stored) field.description.kind = value;
+      if (field.description.name == name) field.description.kind = value;
   }
   return plan;
 }

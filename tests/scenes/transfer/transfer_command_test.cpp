@@ -96,6 +96,16 @@ TEST_F(TransferCommand, PiecesHoldTheSameValuesAsOneFile) {
   for (std::size_t f = 0; f < one.fields.size(); ++f) EXPECT_EQ(one.fields[f].values, pieces.fields[f].values);
 }
 
+TEST_F(TransferCommand, TakesTheMethodThatAFieldNames) {
+  arguments_.fields = {"temperature:project", "velocity:moving_least_squares"};
+  const ResultData result = transferred();
+  ASSERT_EQ(result.fields.size(), 2u);
+  for (std::size_t n = 0; n < result.mesh.coordinates.size(); ++n) {
+    EXPECT_NEAR(result.fields[0].values[n], linear(result.mesh.coordinates[n]), 1e-9);
+    EXPECT_NEAR(result.fields[1].values[3 * n], linear(result.mesh.coordinates[n]), 1e-9);
+  }
+}
+
 TEST_F(TransferCommand, PutsElementValuesAtNodesIfAsked) {
   arguments_.fields = {"plastic_heat"}, arguments_.at = "nodes";
   const ResultData result = transferred();
