@@ -201,7 +201,7 @@ void GridTransfer::Impl::interpolate(bool again) {
   std::vector<Vec3> centres;
   std::span<const Vec3> points = target.coordinates;
   if (target.location == Location::element) centres = local_points(target.side()), points = centres;
-  const std::vector<Placement> places =
+  const std::vector<Placement>& places =
       again ? locator->find_again(containers, points, moved) : locator->find(containers, points);
   if (locator->decomposed()) moved = 0;
   const bool drop = options.outside == OutsidePolicy::value && !onto_surface;
@@ -283,7 +283,7 @@ void GridTransfer::Impl::build(bool again) {
   }
   if (options.moving && !locator) mean_size = mean_spacing(target);
   for (Partner* partner : {&source, &target}) {
-    partner->built_fingerprint = fingerprint(partner->coordinates);
+    if (!options.moving) partner->built_fingerprint = fingerprint(partner->coordinates);
     if (options.moving) partner->built.assign(partner->coordinates.begin(), partner->coordinates.end());
   }
   source.volumes.clear();
@@ -351,26 +351,45 @@ void GridTransfer::apply(std::span<const TransferItem> fields) const {
   impl_->apply(fields);
 }
 
+namespace {
+
+/// Square of the greatest distance from where the map was built, m^2; infinite if a coordinate is no number.
+double farthest_squared(const Partner& partner) {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  double farthest = 0;
+  for (std::size_t i = 0; i < partner.built.size(); ++i) {
+    const Vec3 way = partner.coordinates[i] - partner.built[i];
+    const double squared = dot(way, way);
+    farthest = squared <= farthest ? farthest : squared;  // takes what is not a number, and keeps it
+  }
+  return farthest < infinite ? farthest : infinite;
+}
+
+}  // namespace
+
+/// How far anything has moved on any rank since the map was built, m.
+double GridTransfer::Impl::farthest_motion(std::span<const Vec3> source_now, std::span<const Vec3> target_now) {
+  const auto check = [&] {
+    check_grid({source.mesh, source_now, source.location, source.cloud}, "source", name);
+    check_grid({target.mesh, target_now, target.location, target.cloud}, "target", name);
+  };
+  const bool kept = source.built.size() == source_now.size() && target.built.size() == target_now.size();
+  if (!options.moving || comm().any(!kept)) check();  // which also refuses arrays of another length
+  source.coordinates = source_now, target.coordinates = target_now;
+  if (!options.moving) {
+    const auto same = [](const Partner& partner) { return fingerprint(partner.coordinates) == partner.built_fingerprint; };
+    return comm().any(!same(source) || !same(target)) ? std::numeric_limits<double>::infinity() : 0.0;
+  }
+  const double farthest = comm().max(std::max(farthest_squared(source), farthest_squared(target)));
+  if (!std::isfinite(farthest)) check();
+  return std::sqrt(farthest);
+}
+
 bool GridTransfer::update(std::span<const Vec3> source_coordinates, std::span<const Vec3> target_coordinates) {
   Impl& impl = *impl_;
-  const auto checked = [&](const Partner& partner, std::span<const Vec3> now, const char* which) {
-    check_grid({partner.mesh, now, partner.location, partner.cloud}, which, impl.name);
-    return now;
-  };
-  impl.source.coordinates = checked(impl.source, source_coordinates, "source");
-  impl.target.coordinates = checked(impl.target, target_coordinates, "target");
-  const auto same = [](const Partner& partner) {
-    return fingerprint(partner.coordinates) == partner.built_fingerprint;
-  };
-  if (!impl.comm().any(!same(impl.source) || !same(impl.target))) return false;
+  const double farthest = impl.farthest_motion(source_coordinates, target_coordinates);
+  if (farthest == 0) return false;
   if (impl.options.moving) {
-    double farthest = 0;  // squared
-    for (const Partner* partner : {&impl.source, &impl.target})
-      for (std::size_t i = 0; i < partner->built.size(); ++i) {
-        const Vec3 way = partner->coordinates[i] - partner->built[i];
-        farthest = std::max(farthest, dot(way, way));
-      }
-    farthest = std::sqrt(impl.comm().max(farthest));
     constexpr double rigid_tolerance = 1e-10;  // of an element's size
     if (moved_rigidly(impl.source, impl.target, rigid_tolerance * impl.mean_size)) {
       ++impl.rigid;

@@ -72,6 +72,7 @@ struct GridTransfer::Impl {
 
   const Communicator& comm() const { return target.comm(); }
   void build(bool again);
+  double farthest_motion(std::span<const Vec3> source_now, std::span<const Vec3> target_now);
   void interpolate(bool again);
   void project();
   void fit();

@@ -109,6 +109,7 @@ void Locator::forget() {
   arrived_ = {};
   tree_ = {};
   held_ = {};
+  here_ = {};
 }
 
 void Locator::build(const Containers& containers, std::span<const Vec3> points) {
@@ -127,50 +128,50 @@ void Locator::build(const Containers& containers, std::span<const Vec3> points) 
   tree_ = search_->take_tree();
 }
 
-std::vector<Placement> Locator::search(const Containers& containers, std::span<const Vec3> points, bool again) {
+void Locator::search(const Containers& containers, std::span<const Vec3> points, bool again) {
   const ElementSet& set = elements(containers);
-  const std::span<const Vec3> here = comm_.size() == 1 ? points : search_->arrived_points();
-  std::vector<Placement> places(here.size());
-  if (again) {
-    if (place_again(set, here, held_, places)) {
-      tree_.refit(set.boxes);
-      searched_ = std::count(held_.begin(), held_.end(), no_index);
-      place_rest(set, tree_, here, held_, reach_, rules_, places);
-    } else {
-      searched_ = 0;
-    }
-  } else {
+  const bool alone = comm_.size() == 1;
+  const std::span<const Vec3> here = alone ? points : search_->arrived_points();
+  std::vector<Placement>& places = alone ? places_ : here_;
+  places.resize(here.size());
+  if (!again) {
     place_many(set, tree_, here, reach_, rules_, places);
     searched_ = static_cast<std::int64_t>(here.size());
+    if (moving_) held_.resize(places.size());
+  } else if (place_again(set, here, held_, places)) {
+    tree_.refit(set.boxes);
+    searched_ = std::count(held_.begin(), held_.end(), no_index);
+    place_rest(set, tree_, here, held_, reach_, rules_, places);
+  } else {
+    searched_ = 0;
   }
-  if (moving_) {
-    held_.resize(places.size());
+  if (moving_ && searched_ > 0)
     for (std::size_t i = 0; i < places.size(); ++i) held_[i] = places[i].here;
-  }
-  if (comm_.size() == 1) return places;
-  std::vector<Placement> result(points.size());
-  search_->points().reverse(std::span<const Placement>(places), std::span<Placement>(result));
-  return result;
+  if (alone) return;
+  places_.resize(points.size());
+  search_->points().reverse(std::span<const Placement>(places), std::span<Placement>(places_));
 }
 
-void Locator::look_farther(const Containers& containers, std::span<const Vec3> points,
-                           std::vector<Placement>& places) const {
+void Locator::look_farther(const Containers& containers, std::span<const Vec3> points) {
+  const auto lost = [&] {
+    return std::any_of(places_.begin(), places_.end(), [](const Placement& place) { return !place.found(); });
+  };
+  if (!comm_.any(lost())) return;
   Box mine;
   for (const Box& box : containers.set.boxes)
     if (!box.empty()) mine.add(box);
   const Box source = global_box(comm_, mine);
   double reach = reach_;
-  while (true) {
+  while (comm_.any(lost())) {
     std::vector<std::size_t> missing;
     std::vector<Vec3> missing_points;
     Box around;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      if (places[i].found()) continue;
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      if (places_[i].found()) continue;
       missing.push_back(i);
       missing_points.push_back(points[i]);
       around.add(points[i]);
     }
-    if (comm_.sum(static_cast<std::int64_t>(missing.size())) == 0) return;
     reach = next_reach(comm_, source, missing_points, reach);
     around = global_box(comm_, around);
     Box everything = source;
@@ -191,29 +192,31 @@ void Locator::look_farther(const Containers& containers, std::span<const Vec3> p
       place_many(came, meeting.tree(), meeting.arrived_points(), reach, rules_, here);
       meeting.points().reverse(std::span<const Placement>(here), std::span<Placement>(found));
     }
-    for (std::size_t k = 0; k < missing.size(); ++k) places[missing[k]] = found[k];
+    for (std::size_t k = 0; k < missing.size(); ++k) places_[missing[k]] = found[k];
   }
 }
 
-std::vector<Placement> Locator::find(const Containers& containers, std::span<const Vec3> points) {
+const std::vector<Placement>& Locator::find(const Containers& containers, std::span<const Vec3> points) & {
   searched_ = 0;
-  if (comm_.sum(static_cast<std::int64_t>(points.size())) == 0) return {};
+  places_.clear();
+  if (comm_.sum(static_cast<std::int64_t>(points.size())) == 0) return places_;
   if (containers.count == 0)
     throw Error(ExitCode::geometry,
                 fmt::format("transfer '{}': the mesh that should hold the points has no element with volume", name_));
   build(containers, points);
-  std::vector<Placement> places = search(containers, points, false);
-  look_farther(containers, points, places);
+  search(containers, points, false);
+  look_farther(containers, points);
   if (!moving_) {
     forget();
-    return places;
+    return places_;
   }
-  work_.resize(places.size());
-  for (std::size_t i = 0; i < places.size(); ++i) work_[i] = static_cast<float>(1 + places[i].work);
-  return places;
+  work_.resize(places_.size());
+  for (std::size_t i = 0; i < places_.size(); ++i) work_[i] = static_cast<float>(1 + places_[i].work);
+  return places_;
 }
 
-std::vector<Placement> Locator::find_again(const Containers& containers, std::span<const Vec3> points, double moved) {
+const std::vector<Placement>& Locator::find_again(const Containers& containers, std::span<const Vec3> points,
+                                                  double moved) {
   const bool known = comm_.size() == 1 ? held_.size() == points.size() : search_ != nullptr;
   // An element meets its points as long as both together have moved by less than the skin.
   if (comm_.any(!known) || (comm_.size() > 1 && 2 * moved > skin_)) return find(containers, points);
@@ -226,15 +229,16 @@ std::vector<Placement> Locator::find_again(const Containers& containers, std::sp
     for (const LocalIndex e : search_->box_of_send()) sent.push_back(containers.set.boxes[static_cast<std::size_t>(e)]);
     search_->boxes().forward(std::span<const Box>(sent), std::span<Box>(arrived_.boxes));
   }
-  std::vector<Placement> places = search(containers, points, true);
-  look_farther(containers, points, places);
-  return places;
+  search(containers, points, true);
+  look_farther(containers, points);
+  return places_;
 }
 
 std::int64_t Locator::memory() const {
   const auto bytes = [](const auto& v) { return static_cast<std::int64_t>(v.capacity() * sizeof(v[0])); };
   return bytes(arrived_.x) + bytes(arrived_.nodes) + bytes(arrived_.ids) + bytes(arrived_.items) +
          bytes(arrived_.index) + bytes(arrived_.owners) + bytes(arrived_.boxes) + bytes(held_) + bytes(work_) +
+         bytes(places_) + bytes(here_) +
          tree_.memory();
 }
 

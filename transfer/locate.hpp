@@ -25,12 +25,16 @@ class Locator {
   /// The placement of each point of this rank, in order: every point gets an element if there is any at all, however
   /// far, on any number of ranks. Points outside cost little while they are nearer than about half an element: those
   /// are settled in the first rendezvous, only the others go to further ones, of doubling reach.
-  std::vector<Placement> find(const Containers& containers, std::span<const Vec3> points);
+  const std::vector<Placement>& find(const Containers& containers, std::span<const Vec3> points) &;
+  std::vector<Placement> find(const Containers& containers, std::span<const Vec3> points) && {
+    static_cast<Locator&>(*this).find(containers, points);
+    return std::move(places_);
+  }
 
   /// The same points and elements, moved by at most `moved` (m) since find(), on any rank. Rebuilds as little as the
   /// motion demands. The placements are those of find(), bit for bit, except where elements overlap: there a point
   /// stays in its element while it is inside.
-  std::vector<Placement> find_again(const Containers& containers, std::span<const Vec3> points, double moved);
+  const std::vector<Placement>& find_again(const Containers& containers, std::span<const Vec3> points, double moved);
 
   /// Local: points that the last call searched for, rather than found in their element.
   std::int64_t searched() const { return searched_; }
@@ -41,8 +45,8 @@ class Locator {
  private:
   void bring_elements(const Containers& containers);
   void build(const Containers& containers, std::span<const Vec3> points);
-  std::vector<Placement> search(const Containers& containers, std::span<const Vec3> points, bool again);
-  void look_farther(const Containers& containers, std::span<const Vec3> points, std::vector<Placement>& places) const;
+  void search(const Containers& containers, std::span<const Vec3> points, bool again);
+  void look_farther(const Containers& containers, std::span<const Vec3> points);
   const ElementSet& elements(const Containers& containers) const {
     return comm_.size() == 1 ? containers.set : arrived_;
   }
@@ -57,7 +61,9 @@ class Locator {
   std::unique_ptr<DistributedSearch> search_;  // none on one rank
   ElementSet arrived_;
   BoxTree tree_;
-  std::vector<LocalIndex> held_;  // of the points here
+  std::vector<LocalIndex> held_;   // of the points here
+  std::vector<Placement> places_;  // of the points of this rank
+  std::vector<Placement> here_;    // of the points here, on several ranks
   std::vector<float> work_;       // of the points of this rank, for the balance of the next decomposition
   std::int64_t searched_ = 0;
   bool decomposed_ = false;

@@ -328,7 +328,7 @@ void place_rest(const ElementSet& elements, const BoxTree& tree, std::span<const
     if (held[i] == no_index) rest.push_back(i);
   const double most = ordered_length(points, elements.boxes);
   if (most > 0) {
-    place_in_order(placer, points, places, rest.size(), most, [&](std::size_t k) { return rest[k]; });
+    place_in_order(placer, points, places, rest.size(), 2 * most, [&](std::size_t k) { return rest[k]; });
     return;
   }
   Box around;
