@@ -138,7 +138,7 @@ void MassMatrix::fill(const Side& side) {
   }
 }
 
-// Saad, Iterative Methods for Sparse Linear Systems, algorithm 12.1, on D^-1 M with the spectrum [least, 1] [Saa03].
+// Algorithm 12.1 of [Saa03] on D^-1 M with the spectrum [least, 1], as in [WR09].
 void MassMatrix::solve(std::span<const double> r, std::span<double> d, int components) const {
   const auto width = static_cast<std::size_t>(components);
   const std::size_t owned = rows_.size();
