@@ -12,6 +12,7 @@
 #include <map>
 #include <numeric>
 
+#include "framework/mesh/distinct.hpp"
 #include "framework/mesh/facets.hpp"
 #include "framework/mesh/halo.hpp"
 #include "framework/mesh/node_table.hpp"
@@ -134,7 +135,8 @@ BlockTypes agree_on_blocks(const Communicator& comm, const MeshPart& part, const
 struct Numbered {
   std::vector<GlobalId> ids, connectivity;
   std::vector<std::int64_t> labels;
-  std::vector<LocalIndex> given;  ///< place among the given elements of this rank
+  std::vector<LocalIndex> given;      ///< place among the given elements of this rank
+  std::span<const LocalIndex> nodes;  ///< connectivity by places among the used nodes
 };
 
 template <typename T>
@@ -170,13 +172,11 @@ class Assembly {
 
  private:
   void find_used_nodes() {
-    for (const BlockPart& b : part_.blocks) used_.insert(used_.end(), b.connectivity.begin(), b.connectivity.end());
-    std::sort(used_.begin(), used_.end());
-    used_.erase(std::unique(used_.begin(), used_.end()), used_.end());
-  }
-
-  std::size_t used_index(std::int64_t label) const {
-    return static_cast<std::size_t>(std::lower_bound(used_.begin(), used_.end(), label) - used_.begin());
+    std::vector<std::int64_t> entries;
+    for (const BlockPart& b : part_.blocks) entries.insert(entries.end(), b.connectivity.begin(), b.connectivity.end());
+    Distinct used = distinct(entries);
+    used_ = std::move(used.values);
+    entries_ = std::move(used.places);
   }
 
   std::string first_element_at(std::int64_t node) const {
@@ -203,6 +203,7 @@ class Assembly {
   Numbered numbered(ElementBlock& block, bool with_ids, const NodeTable& nodes) {
     Numbered mine;
     LocalIndex given = 0;
+    std::size_t first_entry = 0;
     const std::size_t width = nodes_of(block.kind);
     std::vector<std::int64_t> rows;
     for (const BlockPart& b : part_.blocks) {
@@ -210,12 +211,15 @@ class Assembly {
       if (b.name == block.name) {
         mine.given.resize(static_cast<std::size_t>(count));
         std::iota(mine.given.begin(), mine.given.end(), given);
-        for (const std::int64_t label : b.connectivity) mine.connectivity.push_back(nodes.used()[used_index(label)].id);
+        mine.nodes = std::span(entries_).subspan(first_entry, b.connectivity.size());
+        mine.connectivity.reserve(mine.nodes.size());
+        for (const LocalIndex n : mine.nodes) mine.connectivity.push_back(nodes.used()[static_cast<std::size_t>(n)].id);
         const std::span<const std::int64_t> keys = with_ids ? b.ids : b.connectivity;
         rows.assign(keys.begin(), keys.end());
         if (with_ids) mine.labels = rows;
       }
       given += count;
+      first_entry += b.connectivity.size();
     }
     if (!with_ids)
       for (std::size_t i = 0; i < rows.size(); i += width) sort_few(std::span(rows).subspan(i, width));
@@ -248,19 +252,17 @@ class Assembly {
     const std::size_t width = nodes_of(block.kind);
     std::vector<int> rank;
     std::vector<LocalIndex> element;
-    std::size_t at = 0;
-    for (const BlockPart& b : part_.blocks) {
-      if (b.name != name) continue;
-      for (std::size_t e = 0; e < mine.ids.size(); ++e) {
-        const std::size_t begin = rank.size();
-        rank.push_back(comm_.rank());
-        for (std::size_t i = 0; i < width; ++i, ++at) {
-          const int owner = nodes.used()[used_index(b.connectivity[at])].owner;
-          if (std::find(rank.begin() + static_cast<std::ptrdiff_t>(begin), rank.end(), owner) == rank.end())
-            rank.push_back(owner);
-        }
-        element.resize(rank.size(), static_cast<LocalIndex>(e));
+    rank.reserve(mine.ids.size());
+    element.reserve(mine.ids.size());
+    for (std::size_t e = 0; e < mine.ids.size(); ++e) {
+      const std::size_t begin = rank.size();
+      rank.push_back(comm_.rank());
+      for (const LocalIndex n : mine.nodes.subspan(e * width, width)) {
+        const int owner = nodes.used()[static_cast<std::size_t>(n)].owner;
+        if (std::find(rank.begin() + static_cast<std::ptrdiff_t>(begin), rank.end(), owner) == rank.end())
+          rank.push_back(owner);
       }
+      element.resize(rank.size(), static_cast<LocalIndex>(e));
     }
     const ExchangePlan plan = ExchangePlan::to_ranks(comm_, rank, element, options_.source + " set-up");
     receive(block, mine, plan);
@@ -298,22 +300,20 @@ class Assembly {
 
   /// Nodes of the local elements, and those without elements that this rank owns.
   void take_nodes(const NodeTable& nodes) {
-    std::vector<GlobalId>& ids = mesh_->node_ids;
-    for (const std::vector<GlobalId>& c : connectivity_) ids.insert(ids.end(), c.begin(), c.end());
+    std::vector<GlobalId> entries;
+    for (const std::vector<GlobalId>& c : connectivity_) entries.insert(entries.end(), c.begin(), c.end());
     for (const NodeAnswer& n : nodes.given())
-      if (n.owner == comm_.rank()) ids.push_back(n.id);
-    std::sort(ids.begin(), ids.end());
-    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
-    ids.shrink_to_fit();
+      if (n.owner == comm_.rank()) entries.push_back(n.id);
+    Distinct local = distinct(entries);
+    mesh_->node_ids = std::move(local.values);
     mesh_->global_nodes = nodes.count();
-    for (std::size_t b = 0; b < mesh_->blocks.size(); ++b)
-      for (const GlobalId id : connectivity_[b]) mesh_->blocks[b].connectivity.push_back(local_node(id));
+    auto next = local.places.begin();
+    for (std::size_t b = 0; b < mesh_->blocks.size(); ++b) {
+      const auto end = next + static_cast<std::ptrdiff_t>(connectivity_[b].size());
+      mesh_->blocks[b].connectivity.assign(next, end);
+      next = end;
+    }
     connectivity_.clear();
-  }
-
-  LocalIndex local_node(GlobalId id) const {
-    return static_cast<LocalIndex>(std::lower_bound(mesh_->node_ids.begin(), mesh_->node_ids.end(), id) -
-                                   mesh_->node_ids.begin());
   }
 
   /// The ways between given and local order, and the halo.
@@ -350,6 +350,7 @@ class Assembly {
   const AssembleOptions& options_;
   std::shared_ptr<Mesh> mesh_;
   AssembledMesh result_;
+  std::vector<LocalIndex> entries_;                  // connectivity of given elements, by places in used_
   std::vector<std::int64_t> used_;                   // ids of the nodes of given elements, ascending
   std::vector<std::vector<GlobalId>> connectivity_;  // of local elements by block, until nodes have places
   std::vector<int> giver_ranks_;                     // of local elements of all blocks

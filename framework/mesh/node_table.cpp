@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "framework/mesh/distinct.hpp"
 #include "framework/mesh/halo.hpp"
 #include "framework/mesh/ordered_homes.hpp"
 
@@ -17,13 +18,6 @@ template <typename T, typename U>
 ExchangeItem travelling(const T& from, U& to) {
   return {reinterpret_cast<const std::byte*>(from.data()), reinterpret_cast<std::byte*>(to.data()),
           sizeof(typename U::value_type)};
-}
-
-std::vector<std::size_t> sorted_by(const std::vector<std::int64_t>& keys) {
-  std::vector<std::size_t> order(keys.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return keys[a] < keys[b]; });
-  return order;
 }
 
 /// Adding 0 makes the two zeros one.
@@ -86,7 +80,7 @@ void NodeTable::take_given(const ExchangePlan& plan, const MeshPart& part, const
 
   std::int64_t conflicts = 0;
   std::string first;
-  const std::vector<std::size_t> order = sorted_by(labels);
+  const std::vector<std::size_t> order = sorted_positions(labels);
   for (std::size_t begin = 0, end = 0; begin < count; begin = end) {
     const std::int64_t label = labels[order[begin]];
     Vec3 least = one_zero(places[order[begin]]), farthest = least;
@@ -112,7 +106,7 @@ void NodeTable::take_given(const ExchangePlan& plan, const MeshPart& part, const
 
 void NodeTable::choose_owners(const std::vector<std::int64_t>& labels, const std::vector<int>& ranks) {
   owners_ = givers_.ranks;
-  const std::vector<std::size_t> order = sorted_by(labels);  // stable, so ranks ascend for each node
+  const std::vector<std::size_t> order = sorted_positions(labels);  // ranks ascend for each node
   std::vector<int> users;
   auto place = labels_.begin();
   for (std::size_t i = 0; i < order.size(); ++i) {

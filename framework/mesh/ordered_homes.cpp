@@ -2,10 +2,10 @@
 #include "framework/mesh/ordered_homes.hpp"
 
 #include <array>
-#include <numeric>
 #include <utility>
 
 #include "framework/comm/exchange_plan.hpp"
+#include "framework/mesh/distinct.hpp"
 
 namespace tenon {
 
@@ -18,14 +18,22 @@ struct Quantiles {
   std::array<std::int64_t, samples> keys;
 };
 
-/// Orders of rows by their values.
+/// Rows in lexicographic order; equal ones keep theirs.
 std::vector<std::size_t> sorted_rows(const std::vector<std::int64_t>& rows, std::size_t width) {
-  std::vector<std::size_t> order(rows.size() / width);
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+  std::vector<std::int64_t> keys(rows.size() / width);
+  for (std::size_t i = 0; i < keys.size(); ++i) keys[i] = rows[i * width];
+  std::vector<std::size_t> order = sorted_positions(keys);
+  const auto before = [&](std::size_t a, std::size_t b) {
     const std::int64_t *const x = rows.data() + a * width, *const y = rows.data() + b * width;
     return std::lexicographical_compare(x, x + width, y, y + width);
-  });
+  };
+  // Few rows share their first value.
+  for (auto begin = order.begin(); width > 1 && begin != order.end();) {
+    auto end = begin + 1;
+    while (end != order.end() && keys[*end] == keys[*begin]) ++end;
+    std::stable_sort(begin, end, before);
+    begin = end;
+  }
   return order;
 }
 
