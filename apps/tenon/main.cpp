@@ -106,7 +106,9 @@ void add_transfer_options(CLI::App& command, tenon::TransferArguments& a) {
                      "Side set of the source that nearest_projection projects to (default: its skin)");
   command.add_flag("--status", a.status,
                    "Write transfer_status (0 inside, 1 nearest, 2 extrapolated, 3 value) and transfer_distance, too");
-  command.add_flag("--report", a.report, "Say more of each field: all digits of the integrals, the farthest point");
+  command.add_flag(
+      "--report", a.report,
+      "Say more of each field: all digits of the integrals, the farthest point, the error of a round trip");
   command.footer(
       "Fields with standard names are densities (density ...) or totals (mass, force, plastic_heat ...), which are "
       "conserved; others are point values, which are interpolated. Coordinates are those in the files. In parallel: "

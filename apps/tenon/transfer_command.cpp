@@ -157,7 +157,7 @@ class TransferRun {
     const PlannedField& first = *fields.front();
     Grid from{source_.get(), source_->coordinates, first.description.location};
     from.blocks = arguments_.blocks, from.sides = arguments_.sides;
-    const Grid to{target_.get(), target_->coordinates, first.to};
+    Grid to{target_.get(), target_->coordinates, first.to};
     transfer::TransferOptions options = settings_.options;
     options.method = first.method;
     const GridTransfer map(from, to, first.description, options, first.description.name);
@@ -179,9 +179,25 @@ class TransferRun {
       travelling.push_back({sent[i], arrived[i].values, fields[i]->description.components});
     map.apply(travelling);
     if (arguments_.status) take_status(map, first.to);
+    const std::optional<GridTransfer> back = arguments_.report ? way_back(from, to, first) : std::nullopt;
     for (std::size_t i = 0; i < fields.size(); ++i) {
       arrived[i].said.report = map.report(sent[i], arrived[i].values, fields[i]->description.components);
+      if (back) arrived[i].said.round_trip = map.round_trip_error(*back, sent[i], fields[i]->description.components);
       arrived_.push_back(std::move(arrived[i]));
+    }
+  }
+
+  /// Collective. The map of the opposite direction, if there is one: points outside take the nearest value.
+  std::optional<GridTransfer> way_back(Grid from, Grid to, const PlannedField& field) const {
+    from.blocks.clear(), from.sides.clear();
+    FieldDescription description = field.description;
+    description.location = field.to;
+    transfer::TransferOptions options;
+    options.method = field.method == transfer::Method::copy ? transfer::Method::automatic : field.method;
+    try {
+      return std::optional<GridTransfer>(std::in_place, to, from, description, options, description.name + " back");
+    } catch (const Error&) {  // on all ranks
+      return std::nullopt;
     }
   }
 

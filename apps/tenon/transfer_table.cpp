@@ -77,6 +77,12 @@ std::string transfer_details(std::span<const TransferredField> fields) {
     text += fmt::format("\n  integrals {}: {:.17g} before, {:.17g} after\n",
                         f.description.components > 1 ? "of the first component" : "of the field", r.source_integral,
                         r.target_integral);
+    if (f.round_trip)
+      text +=
+          fmt::format("  there and back: greatest difference {:.3g} {}\n", *f.round_trip, plain_unit(f.description));
+    if (f.method == "project")
+      text += fmt::format("  of the integral of the magnitude {:.1e} was spread; {} values clipped, {:.1e} unplaced\n",
+                          r.spread, r.clipped, r.unplaced);
   }
   return text;
 }

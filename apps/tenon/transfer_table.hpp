@@ -2,6 +2,7 @@
 // What `tenon transfer` says of the fields that it has carried over.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 
@@ -14,6 +15,7 @@ struct TransferredField {
   Location to = Location::node;
   std::string method;
   transfer::TransferReport report;
+  std::optional<double> round_trip = {};  ///< greatest difference after the way there and back, unit of the field
 };
 
 /// A line for each field: integrals before and after, misses, errors. `solid`: integrals are over volumes, not areas.

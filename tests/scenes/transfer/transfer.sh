@@ -26,6 +26,7 @@ grep -q 'eqps .*interpolate' out1.vtu.txt || { fail "no line of the report"; cat
 # Back onto the mesh it came from, in pieces, at another time, with amounts.
 transfer 3 back.pvtu bar1/conduction.pvd --fields temperature --time '1 us' --at elements --report
 grep -q 'state at 1e-06 s' back.pvtu.txt || { fail "not the state at 1 us"; cat back.pvtu.txt; }
+grep -q 'there and back: greatest difference [0-9.e+-]* K' back.pvtu.txt || { fail "no round trip"; cat back.pvtu.txt; }
 [ -f back.pvtu ] && [ -f back-r0.vtu ] || fail "no pieces"
 transfer 2 sum.vtu out1.vtu --fields eqps:conserve --at nodes
 grep -Eq 'eqps .* total +conserve .* [0-9.]+e-1[5-9] |eqps .* total +conserve .* 0.0e\+00 ' sum.vtu.txt || { fail "amounts are not kept"; cat sum.vtu.txt; }
