@@ -123,9 +123,13 @@ Rows assemble(const Items& items, std::span<const Entry> entries) {
 
 Rows conservation_rows(const Side& source, const Side& target, const PlaceRules& rules, bool density,
                        const std::string& name, Sought& sought) {
+  return spreading_rows(spreading_points(source, target, density), target, rules, density, name, sought);
+}
+
+Rows spreading_rows(SpreadingPoints&& spreading, const Side& target, const PlaceRules& rules, bool density,
+                    const std::string& name, Sought& sought) {
   const Communicator& comm = target.mesh.comm;
   const Containers containers = containers_of(target.mesh, target.coordinates, {}, rules.tolerance, name);
-  SpreadingPoints spreading = spreading_points(source, target, density);
   sought.skipped = containers.skipped;
   sought.points = std::move(spreading.points);
   sought.ids = std::move(spreading.ids);

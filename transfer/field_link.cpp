@@ -55,8 +55,28 @@ std::string suffix(std::size_t width, std::size_t component) {
   return width == 1 ? "" : std::string("_") + "xyzuvw"[component % 6];
 }
 
-bool same(std::span<const Vec3> a, const std::vector<Vec3>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end());
+/// The places of owned nodes as a checkpoint keeps them.
+std::vector<double> owned_coordinates(const Mesh& mesh, std::span<const Vec3> coordinates) {
+  std::vector<double> values;
+  values.reserve(3 * mesh.owned_nodes.size());
+  for (const LocalIndex n : mesh.owned_nodes)
+    for (const double c : coordinates[static_cast<std::size_t>(n)]) values.push_back(c);
+  return values;
+}
+
+void save_coordinates(CheckpointWriter& file, const std::string& name, const Mesh& mesh,
+                      std::span<const Vec3> coordinates) {
+  const OwnedItems owned = owned_items(mesh, Location::node);
+  file.array(name, GlobalOrder(mesh.comm, owned.ids, owned.global_count), owned_coordinates(mesh, coordinates), 3);
+}
+
+std::vector<Vec3> load_coordinates(const CheckpointReader& file, const std::string& name, const Mesh& mesh) {
+  std::vector<double> values(3 * mesh.node_ids.size());
+  file.array(name, GlobalOrder(mesh.comm, mesh.node_ids, mesh.global_nodes), std::span<double>(values), 3);
+  std::vector<Vec3> coordinates(mesh.node_ids.size());
+  for (std::size_t n = 0; n < coordinates.size(); ++n)
+    coordinates[n] = {values[3 * n], values[3 * n + 1], values[3 * n + 2]};
+  return coordinates;
 }
 
 }  // namespace
@@ -120,28 +140,27 @@ void FieldLink::build() {
   const auto place = [current](const Component& c) {
     return current ? c.current_coordinates() : std::span<const Vec3>(c.mesh().coordinates);
   };
-  const Grid from{&source().mesh(), place(source()), export_.field.location};
-  const Grid to{&target().mesh(), place(target()), import_.field.location};
+  // After a restart the map is first that of the interrupted run, so that it goes on as if nothing had happened.
+  const bool restored = current && !source_built_.empty();
+  const Grid from{&source().mesh(),       restored ? std::span<const Vec3>(source_built_) : place(source()),
+                  export_.field.location, nullptr,
+                  options_.blocks,        options_.side_set};
+  const Grid to{&target().mesh(), restored ? std::span<const Vec3>(target_built_) : place(target()),
+                import_.field.location};
+  options_.transfer.moving = current;
   map_ = std::make_unique<GridTransfer>(from, to, export_.field, options_.transfer, name());
-  ++builds_;
-  if (!current) return;
-  source_built_.assign(from.coordinates.begin(), from.coordinates.end());
-  target_built_.assign(to.coordinates.begin(), to.coordinates.end());
 }
 
-bool FieldLink::moved() const {
-  return source().mesh().comm.any(!same(source().current_coordinates(), source_built_) ||
-                                  !same(target().current_coordinates(), target_built_));
+/// The map goes where the meshes have gone.
+void FieldLink::follow() {
+  if (options_.configuration != Configuration::current) return;
+  if (!map_->update(source().current_coordinates(), target().current_coordinates())) ++updates_skipped_;
+  source_built_ = {}, target_built_ = {};
 }
 
 void FieldLink::run() {
   const ScopedTimer scope(timer());
-  if (options_.configuration == Configuration::current) {
-    if (moved())
-      build();
-    else
-      ++rebuilds_skipped_;
-  }
+  follow();
   export_.read(source_values_);
   map_->apply(source_values_, target_values_, export_.field.components);
   const auto width = static_cast<std::size_t>(export_.field.components);
@@ -182,8 +201,8 @@ std::vector<std::string> FieldLink::report() {
       map_->report(source_values_, target_values_, export_.field.components, Thoroughness::sampled);
   std::vector<std::string> lines;
   lines.push_back(fmt::format("{}.{} -> {}.{}: map built {} times, {} rebuilds skipped, applied {} times{}",
-                              source().name(), export_.field.name, target().name(), import_.field.name, builds_,
-                              rebuilds_skipped_, runs(), linear() ? ", linear between samples" : ""));
+                              source().name(), export_.field.name, target().name(), import_.field.name, map_->built(),
+                              updates_skipped_, runs(), linear() ? ", linear between samples" : ""));
   lines.push_back(fmt::format("{} points sought, {} outside (greatest distance {:.3g} m at ({:.4g}, {:.4g}, {:.4g}))",
                               r.targets, r.outside, r.greatest_distance, r.farthest[0], r.farthest[1], r.farthest[2]));
   const std::string& unit = export_.field.unit;
@@ -221,6 +240,10 @@ std::vector<std::pair<std::string, ExactSum>> FieldLink::amounts() {
 }
 
 void FieldLink::save(CheckpointWriter& file) {
+  if (options_.configuration == Configuration::current) {
+    save_coordinates(file, "transfer." + name() + ".source_built", source().mesh(), map_->built_source());
+    save_coordinates(file, "transfer." + name() + ".target_built", target().mesh(), map_->built_target());
+  }
   if (!total() && !linear()) return;
   const OwnedItems to = owned_items(target().mesh(), import_.field.location);
   if (linear()) {
@@ -240,6 +263,10 @@ void FieldLink::save(CheckpointWriter& file) {
 }
 
 void FieldLink::load(const CheckpointReader& file) {
+  if (options_.configuration == Configuration::current) {
+    source_built_ = load_coordinates(file, "transfer." + name() + ".source_built", source().mesh());
+    target_built_ = load_coordinates(file, "transfer." + name() + ".target_built", target().mesh());
+  }
   if (!total() && !linear()) return;
   const OwnedItems to = owned_items(target().mesh(), import_.field.location);
   if (linear()) {

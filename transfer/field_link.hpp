@@ -13,13 +13,15 @@
 namespace tenon::transfer {
 
 /// Where both meshes stand when points are sought. Material bodies that move together share reference coordinates, so a
-/// map built there stays right for ever; `current` finds points where the meshes are now and rebuilds when one has
-/// moved.
+/// map built there stays right for ever; `current` finds points where the meshes are now, and the map follows as far as
+/// one has moved against the other.
 enum class Configuration { reference, current };
 
 struct FieldLinkOptions {
   std::string source_field, target_field;
   TransferOptions transfer;
+  std::vector<std::string> blocks;  ///< of the source mesh, in which points are sought; empty: all
+  std::string side_set;             ///< of the source mesh, for nearest_projection
   Configuration configuration = Configuration::reference;
   CouplingSchedule schedule = CouplingSchedule::slower_step;
   BetweenSamples between_samples = BetweenSamples::hold;
@@ -45,21 +47,21 @@ class FieldLink : public Coupling {
   bool linear() const { return options_.between_samples == BetweenSamples::linear; }
   bool total() const { return export_.field.kind == FieldKind::total; }
   void build();
-  bool moved() const;
+  void follow();
   std::vector<double> waiting() const;  // of the owned target items
 
   FieldLinkOptions options_;
   ExportPort export_;
   ImportPort import_;
   std::unique_ptr<GridTransfer> map_;
-  std::int64_t builds_ = 0, rebuilds_skipped_ = 0;
+  std::int64_t updates_skipped_ = 0;
   std::vector<double> source_values_, target_values_;
   std::vector<double> sent_, received_;  // running totals of the owned items, J or the like
   LinearInTime line_;                    // of a point value, where it is linear between samples
   SteadyRelease release_;                // of a total, where it is handed over evenly
   std::vector<double> prepared_values_;
   std::vector<LocalIndex> source_owned_, target_owned_;
-  std::vector<Vec3> source_built_, target_built_;  // coordinates that the map was built for
+  std::vector<Vec3> source_built_, target_built_;  // that the map of an interrupted run was built for
 };
 
 /// Positions (in an array of local items) of the items that this rank owns, and their global ids.

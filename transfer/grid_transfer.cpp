@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "transfer/grid_transfer_impl.hpp"
+#include "transfer/spreading.hpp"
 
 namespace tenon::transfer {
 
@@ -228,7 +229,13 @@ void GridTransfer::Impl::interpolate(bool again) {
 void GridTransfer::Impl::conserve() {
   Sought sought;
   const PlaceRules rules{options.tolerance, options.outside == OutsidePolicy::extrapolate};
-  Rows rows = conservation_rows(source.side(), target.side(), rules, field.kind == FieldKind::density, name, sought);
+  if (!source.mesh && field.kind == FieldKind::density)
+    refuse(name, fmt::format("'{}' is a density, but {} has points, which fill no volume; transfer a total", field.name,
+                             source.name()));
+  const bool density = field.kind == FieldKind::density;
+  Rows rows = source.mesh ? conservation_rows(source.side(), target.side(), rules, density, name, sought)
+                          : spreading_rows(spreading_points(source.items(), source.coordinates), target.side(), rules,
+                                           density, name, sought);
   MissCounter counter;
   for (std::size_t i = 0; i < sought.places.size(); ++i) counter.add(sought.ids[i], sought.points[i], sought.places[i]);
   misses = counter.total(comm(), sought.skipped);
@@ -377,7 +384,9 @@ double GridTransfer::Impl::farthest_motion(std::span<const Vec3> source_now, std
   if (!options.moving || comm().any(!kept)) check();  // which also refuses arrays of another length
   source.coordinates = source_now, target.coordinates = target_now;
   if (!options.moving) {
-    const auto same = [](const Partner& partner) { return fingerprint(partner.coordinates) == partner.built_fingerprint; };
+    const auto same = [](const Partner& partner) {
+      return fingerprint(partner.coordinates) == partner.built_fingerprint;
+    };
     return comm().any(!same(source) || !same(target)) ? std::numeric_limits<double>::infinity() : 0.0;
   }
   const double farthest = comm().max(std::max(farthest_squared(source), farthest_squared(target)));
@@ -427,6 +436,14 @@ void GridTransfer::status(std::span<PointStatus> status, std::span<double> dista
     status[static_cast<std::size_t>(item.item)] = item.status;
     distance[static_cast<std::size_t>(item.item)] = item.distance;
   }
+}
+
+std::span<const Vec3> GridTransfer::built_source() const {
+  return impl_->source.built;
+}
+
+std::span<const Vec3> GridTransfer::built_target() const {
+  return impl_->target.built;
 }
 
 std::int64_t GridTransfer::built() const {

@@ -146,6 +146,10 @@ class GridTransfer {
   std::int64_t memory() const;
   std::int64_t built() const;
   std::int64_t applied() const;
+  /// Local: coordinates that the map was built for (TransferOptions::moving; else empty). A map that is built for
+  /// these, and updated, is the same as one that has been updated all the time.
+  std::span<const Vec3> built_source() const;
+  std::span<const Vec3> built_target() const;
   /// Updates that a rigid common motion made needless; points that the last build or update searched for on this rank.
   std::int64_t rigid_motions() const;
   std::int64_t searched() const;

@@ -238,8 +238,7 @@ std::int64_t Locator::memory() const {
   const auto bytes = [](const auto& v) { return static_cast<std::int64_t>(v.capacity() * sizeof(v[0])); };
   return bytes(arrived_.x) + bytes(arrived_.nodes) + bytes(arrived_.ids) + bytes(arrived_.items) +
          bytes(arrived_.index) + bytes(arrived_.owners) + bytes(arrived_.boxes) + bytes(held_) + bytes(work_) +
-         bytes(places_) + bytes(here_) +
-         tree_.memory();
+         bytes(places_) + bytes(here_) + tree_.memory();
 }
 
 /// `nodes_of(e)`: the local nodes of an element that this rank owns.

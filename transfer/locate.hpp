@@ -64,7 +64,7 @@ class Locator {
   std::vector<LocalIndex> held_;   // of the points here
   std::vector<Placement> places_;  // of the points of this rank
   std::vector<Placement> here_;    // of the points here, on several ranks
-  std::vector<float> work_;       // of the points of this rank, for the balance of the next decomposition
+  std::vector<float> work_;        // of the points of this rank, for the balance of the next decomposition
   std::int64_t searched_ = 0;
   bool decomposed_ = false;
 };

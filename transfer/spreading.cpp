@@ -129,4 +129,18 @@ SpreadingPoints spreading_points(const Side& source, const Side& target, bool de
   return spreader.take();
 }
 
+SpreadingPoints spreading_points(const Items& points, std::span<const Vec3> places) {
+  SpreadingPoints result;
+  for (const LocalIndex p : points.owned) {
+    const auto i = static_cast<std::size_t>(p);
+    result.points.push_back(places[i]);
+    result.ids.push_back(points.ids[i]);
+    result.shares.push_back({points.ids[i], points.owners[i], points.at_owner[i], 1.0, 0.0, result.weights.size()});
+    result.weights.push_back(1.0);
+    result.begin.push_back(result.points.size());
+    result.first_share.push_back(result.shares.size());
+  }
+  return result;
+}
+
 }  // namespace tenon::transfer

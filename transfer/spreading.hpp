@@ -34,5 +34,11 @@ struct SpreadingPoints {
 /// target mesh's mean; totals of nodes by one point at the node; densities of nodes, which are fields between the nodes
 /// too, by the sub-cells of the elements around, weighted with the node's shape function.
 SpreadingPoints spreading_points(const Side& source, const Side& target, bool density);
+/// Local. Totals of points without a mesh: each by one point.
+SpreadingPoints spreading_points(const Items& points, std::span<const Vec3> places);
+
+/// Collective. The rows of conservation_rows from points that spread whatever it may be.
+Rows spreading_rows(SpreadingPoints&& spreading, const Side& target, const PlaceRules& rules, bool density,
+                    const std::string& name, Sought& sought);
 
 }  // namespace tenon::transfer

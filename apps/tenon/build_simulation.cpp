@@ -139,14 +139,25 @@ std::pair<Component*, std::string> find_end(const Simulation& simulation, const 
   return {nullptr, ""};
 }
 
+transfer::Method transfer_method(const std::string& name) {
+  using transfer::Method;
+  if (name == "interpolate") return Method::interpolate;
+  if (name == "nearest_projection") return Method::nearest_projection;
+  if (name == "conserve") return Method::conserve;
+  if (name == "project") return Method::project;
+  if (name == "moving_least_squares") return Method::moving_least_squares;
+  return name == "copy" ? Method::copy : Method::automatic;
+}
+
 transfer::FieldLinkOptions link_options(const Value& block, std::string source_field, std::string target_field) {
   transfer::FieldLinkOptions options;
   options.source_field = std::move(source_field);
   options.target_field = std::move(target_field);
-  const std::string& method = block.text("method");
-  options.transfer.method = method == "interpolate" ? transfer::Method::interpolate
-                            : method == "conserve"  ? transfer::Method::conserve
-                                                    : transfer::Method::automatic;
+  options.transfer.method = transfer_method(block.text("method"));
+  options.transfer.bounded = block.flag("bounded");
+  options.transfer.neighbours = static_cast<int>(block.integer("neighbours"));
+  if (block.has("blocks")) options.blocks = block.texts("blocks");
+  if (block.has("side_set")) options.side_set = block.text("side_set");
   const std::string& outside = block.text("outside");
   options.transfer.outside = outside == "extrapolate" ? transfer::OutsidePolicy::extrapolate
                              : outside == "value"     ? transfer::OutsidePolicy::value

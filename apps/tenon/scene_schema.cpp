@@ -20,10 +20,21 @@ Schema transfer_schema() {
   s.text("from", "Component and field that gives, as `mechanics.plastic_heat`.").required();
   s.text("to", "Component and field that takes, as `conduction.heat`.").required();
   s.choice(
-      "method", {"automatic", "interpolate", "conserve"},
-      "`interpolate` keeps linear fields exact (point values), `conserve` keeps sums to round-off (totals, densities); "
-      "`automatic` chooses by the kind of the field.",
+      "method",
+      {"automatic", "interpolate", "nearest_projection", "conserve", "project", "moving_least_squares", "copy"},
+      "`interpolate`: shape functions of the source, linear fields exact (point values); `nearest_projection`: the "
+      "same on surfaces that do not match; `conserve`: sums to round-off (totals, densities); `project`: the "
+      "nearest field in the mean square, integrals kept (point values, densities); `moving_least_squares`: a fit "
+      "to the nearest source points; `copy`: the meshes must match. `automatic` chooses by the kind of the field "
+      "and of the meshes; matching meshes are copied by any method.",
       "automatic");
+  s.flag("bounded", "Of `method: project`: no value beyond those of the source around it.", "false");
+  s.integer("neighbours", "Of `method: moving_least_squares`: source points that each fit looks at.", "20",
+            Range{4, 64, false, false});
+  s.texts("blocks", "Blocks of the source mesh that points are sought in; all without it.");
+  s.text("side_set",
+         "Of `method: nearest_projection`: the source's side set that is projected to; without it surface "
+         "elements, or the skin.");
   s.choice("outside", {"nearest", "extrapolate", "value", "error"},
            "What a point outside the source mesh receives; counted and reported in every case.", "nearest");
   s.quantity("outside_value", "1", "Value for `outside: value`, in the field's SI unit.", "0");
@@ -31,7 +42,7 @@ Schema transfer_schema() {
              Range::positive());
   s.choice("configuration", {"reference", "current"},
            "Where points are sought: in the undeformed meshes (one map for the whole run; right for meshes of the same "
-           "material) or where they are now (a new map when one of them has moved).",
+           "material) or where they are now (the map follows as far as one moves against the other).",
            "reference");
   s.choice("every", {"slower_step", "source_step"},
            "Once per step of the slower of the two components, or after every step of the source. Totals accumulate in "
