@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "transfer/mesh_items.hpp"
 
@@ -197,8 +198,8 @@ std::vector<double> FieldLink::waiting() const {
 }
 
 std::vector<std::string> FieldLink::report() {
-  const TransferReport r =
-      map_->report(source_values_, target_values_, export_.field.components, Thoroughness::sampled);
+  const TransferReport r = map_->report(source_values_, target_values_, export_.field.components,
+                                        options_.full_report ? Thoroughness::full : Thoroughness::sampled);
   std::vector<std::string> lines;
   lines.push_back(fmt::format("{}.{} -> {}.{}: map built {} times, {} rebuilds skipped, applied {} times{}",
                               source().name(), export_.field.name, target().name(), import_.field.name, map_->built(),
@@ -224,7 +225,28 @@ std::vector<std::string> FieldLink::report() {
                     "estimated greatest error {:.3g} {}",
                     r.source_integral, r.target_integral, r.mismatch, r.error_estimate, unit));
   }
+  if (r.clipped > 0 || r.spread > 0)
+    lines.push_back(fmt::format("{} values kept within bounds, {:.1e} of the integral spread over the target",
+                                r.clipped, r.spread));
+  if (options_.full_report) lines.push_back(round_trip());
   return lines;
+}
+
+/// How much the last values lose on the way to the target's mesh and back.
+std::string FieldLink::round_trip() const {
+  const bool current = options_.configuration == Configuration::current;
+  const auto place = [current](const Component& c) {
+    return current ? c.current_coordinates() : std::span<const Vec3>(c.mesh().coordinates);
+  };
+  TransferOptions options = options_.transfer;
+  options.moving = false;
+  if (options.outside == OutsidePolicy::error) options.outside = OutsidePolicy::nearest;
+  options.greatest_distance = std::numeric_limits<double>::infinity();
+  const GridTransfer back({&target().mesh(), place(target()), import_.field.location},
+                          {&source().mesh(), place(source()), export_.field.location}, export_.field, options,
+                          name() + ".back");
+  return fmt::format("forth and back: values change by {:.3g} {} at most",
+                     map_->round_trip_error(back, source_values_, export_.field.components), export_.field.unit);
 }
 
 std::vector<std::pair<std::string, ExactSum>> FieldLink::amounts() {
@@ -237,6 +259,23 @@ std::vector<std::pair<std::string, ExactSum>> FieldLink::amounts() {
     if (linear()) all.emplace_back("transfer." + name() + ".waiting" + suffix(width, c), exact(waiting(), width, c));
   }
   return all;
+}
+
+std::vector<ExportPort> FieldLink::shown_on_target() {
+  if (!options_.show_outside) return {};
+  const auto port = [&](const char* what, const char* unit, auto&& value) {
+    ExportPort result;
+    result.field = {"transfer_" + name() + what, import_.field.location, FieldKind::point_value, 1, unit};
+    result.read = [this, value](std::span<double> values) {
+      std::vector<PointStatus> status(values.size());
+      std::vector<double> distance(values.size());
+      map_->status(status, distance);
+      for (std::size_t i = 0; i < values.size(); ++i) values[i] = value(status[i], distance[i]);
+    };
+    return result;
+  };
+  return {port("_status", "1", [](PointStatus status, double) { return static_cast<double>(status); }),
+          port("_distance", "m", [](PointStatus, double distance) { return distance; })};
 }
 
 void FieldLink::save(CheckpointWriter& file) {

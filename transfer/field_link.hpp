@@ -25,6 +25,8 @@ struct FieldLinkOptions {
   Configuration configuration = Configuration::reference;
   CouplingSchedule schedule = CouplingSchedule::slower_step;
   BetweenSamples between_samples = BetweenSamples::hold;
+  bool show_outside = false;  ///< frames show the status of each target item and its distance from the source
+  bool full_report = false;   ///< error estimate of every target, and the error of the way forth and back
 };
 
 /// Totals are accumulated on both sides, so that history.csv shows what was sent, what arrived and what waits.
@@ -39,6 +41,7 @@ class FieldLink : public Coupling {
   void prepare(double time) override;
   std::vector<std::string> report() override;
   std::vector<std::pair<std::string, ExactSum>> amounts() override;
+  std::vector<ExportPort> shown_on_target() override;
   void save(CheckpointWriter& file) override;
   void load(const CheckpointReader& file) override;
   std::int64_t memory() const override;
@@ -48,6 +51,7 @@ class FieldLink : public Coupling {
   bool total() const { return export_.field.kind == FieldKind::total; }
   void build();
   void follow();
+  std::string round_trip() const;
   std::vector<double> waiting() const;  // of the owned target items
 
   FieldLinkOptions options_;

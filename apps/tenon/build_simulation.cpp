@@ -157,6 +157,8 @@ transfer::FieldLinkOptions link_options(const Value& block, std::string source_f
   options.transfer.bounded = block.flag("bounded");
   options.transfer.neighbours = static_cast<int>(block.integer("neighbours"));
   if (block.has("blocks")) options.blocks = block.texts("blocks");
+  options.show_outside = block.flag("show_outside");
+  options.full_report = block.text("report") == "full";
   if (block.has("side_set")) options.side_set = block.text("side_set");
   const std::string& outside = block.text("outside");
   options.transfer.outside = outside == "extrapolate" ? transfer::OutsidePolicy::extrapolate

@@ -40,6 +40,14 @@ Schema transfer_schema() {
   s.quantity("outside_value", "1", "Value for `outside: value`, in the field's SI unit.", "0");
   s.quantity("greatest_distance", "m", "A point farther from the source than this is an error (exit code 5).", "",
              Range::positive());
+  s.flag("show_outside",
+         "Frames show, on the receiving mesh, `transfer_<name>_status` (0 inside, 1 nearest point, 2 extrapolated, 3 "
+         "`outside_value`) and `transfer_<name>_distance` from the source.",
+         "false");
+  s.choice("report", {"sampled", "full"},
+           "What the end of the log tells of it. `sampled`: integrals, points outside, and an error estimate from a "
+           "thousand targets. `full`: from all of them, and how much values change on the way forth and back.",
+           "sampled");
   s.choice("configuration", {"reference", "current"},
            "Where points are sought: in the undeformed meshes (one map for the whole run; right for meshes of the same "
            "material) or where they are now (the map follows as far as one moves against the other).",

@@ -42,6 +42,9 @@ class Coupling {
   virtual std::vector<std::string> report() = 0;
   virtual std::vector<std::pair<std::string, ExactSum>> amounts() { return {}; }
 
+  /// Fields that frames show on the target's mesh, what is asked for only: where values come from, and how far.
+  virtual std::vector<ExportPort> shown_on_target() { return {}; }
+
   virtual void save(CheckpointWriter& file) = 0;
   virtual void load(const CheckpointReader& file) = 0;
   virtual std::int64_t memory() const = 0;

@@ -22,8 +22,13 @@ void FrameOutput::start(Simulation& simulation, bool restarted) {
   };
   for (const auto& component : simulation.components()) {
     Part part{component.get(), {}};
-    for (ExportPort& port : component->exports()) {
-      if (!wanted(port.field)) continue;
+    std::vector<ExportPort> ports;
+    for (ExportPort& port : component->exports())
+      if (wanted(port.field)) ports.push_back(std::move(port));
+    for (const auto& coupling : simulation.couplings())
+      if (&coupling->target() == component.get())
+        for (ExportPort& port : coupling->shown_on_target()) ports.push_back(std::move(port));
+    for (ExportPort& port : ports) {
       const std::size_t size =
           local_items(component->mesh(), port.field.location) * static_cast<std::size_t>(port.field.components);
       part.fields.push_back({std::move(port), std::vector<double>(size)});
