@@ -20,13 +20,13 @@ enum class Configuration { reference, current };
 struct FieldLinkOptions {
   std::string source_field, target_field;
   TransferOptions transfer;
-  std::vector<std::string> blocks;  ///< of the source mesh, in which points are sought; empty: all
-  std::string side_set;             ///< of the source mesh, for nearest_projection
   Configuration configuration = Configuration::reference;
   CouplingSchedule schedule = CouplingSchedule::slower_step;
   BetweenSamples between_samples = BetweenSamples::hold;
   bool show_outside = false;  ///< frames show the status of each target item and its distance from the source
   bool full_report = false;   ///< error estimate of every target, and the error of the way forth and back
+  std::vector<std::string> blocks = {};  ///< of the source mesh, in which points are sought; empty: all
+  std::string side_set = {};             ///< of the source mesh, for nearest_projection
 };
 
 /// Totals are accumulated on both sides, so that history.csv shows what was sent, what arrived and what waits.
