@@ -15,7 +15,8 @@ function(tenon_package)
       INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tenon)
     get_filename_component(parent include/${folder} DIRECTORY)
     string(REPLACE "include" "${CMAKE_INSTALL_INCLUDEDIR}/tenon" parent ${parent})
-    install(DIRECTORY ${folder} DESTINATION ${parent} COMPONENT transfer FILES_MATCHING PATTERN "*.hpp")
+    install(DIRECTORY ${folder} DESTINATION ${parent} COMPONENT transfer FILES_MATCHING PATTERN "*.hpp"
+      PATTERN "*_impl.hpp" EXCLUDE PATTERN "field_link.hpp" EXCLUDE PATTERN "time_samples.hpp" EXCLUDE)
   endwhile()
   install(EXPORT TenonTargets NAMESPACE Tenon:: DESTINATION ${package} COMPONENT transfer)
   configure_package_config_file(cmake/TenonConfig.cmake.in ${CMAKE_BINARY_DIR}/package/TenonConfig.cmake

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <tuple>
-#include <utility>
 
 #include "transfer/balance.hpp"
 #include "transfer/element_points.hpp"
@@ -22,43 +22,75 @@ struct Entry {
   LocalIndex at_owner;
 };
 
-/// Puts pieces in ascending order of targets and adds up those of the same target, in the order of the points.
-void merge(std::vector<Piece>& pieces, std::vector<std::pair<GlobalId, int>>& order, std::vector<Piece>& merged) {
-  order.clear();
-  for (std::size_t i = 0; i < pieces.size(); ++i) order.emplace_back(pieces[i].target, static_cast<int>(i));
-  std::sort(order.begin(), order.end());
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const Piece& piece = pieces[static_cast<std::size_t>(order[i].second)];
-    if (i > 0 && order[i].first == order[i - 1].first)
-      merged.back().weight += piece.weight;
-    else
-      merged.push_back(piece);
-  }
-}
+/// What the points of one group reach: its targets, ascending and each once, and what each point gives to which.
+class Group {
+ public:
+  struct Part {
+    std::size_t point;   ///< within the group
+    std::size_t target;  ///< place in `targets`
+    double weight;
+  };
+  std::vector<Piece> targets;  ///< without weights
+  std::vector<Part> parts;     ///< in order of points
 
+  void read(std::span<const Placement> places, const PlacedNodes& nodes, std::size_t first, bool to_nodes) {
+    targets.clear(), parts.clear();
+    for (std::size_t p = 0; p < places.size(); ++p) {
+      const Placement& place = places[p];
+      if (!to_nodes) {
+        add(p, 1.0, {place.element, 0.0, place.item, place.owner});
+        continue;
+      }
+      const PlacedNodes::Nodes at = nodes.of(first + p);
+      const std::span<double> weights = std::span(shape_).first(place.nodes());
+      shape_weights(place, weights);
+      for (std::size_t a = 0; a < weights.size(); ++a)
+        if (weights[a] != 0) add(p, weights[a], {at.id[a], 0.0, at.at_owner[a], at.owner[a]});
+    }
+    order_targets();
+  }
+
+ private:
+  void add(std::size_t point, double weight, const Piece& target) {
+    parts.push_back({point, targets.size(), weight});
+    targets.push_back(target);
+  }
+  /// Leaves each target once and points the parts to it.
+  void order_targets() {
+    order_.resize(targets.size());
+    std::iota(order_.begin(), order_.end(), std::size_t{0});
+    std::sort(order_.begin(), order_.end(),
+              [&](std::size_t a, std::size_t b) { return targets[a].target < targets[b].target; });
+    distinct_.clear();
+    for (const std::size_t i : order_) {
+      if (distinct_.empty() || distinct_.back().target != targets[i].target) distinct_.push_back(targets[i]);
+      parts[i].target = distinct_.size() - 1;
+    }
+    targets.swap(distinct_);
+  }
+
+  std::array<double, max_nodes> shape_;
+  std::vector<std::size_t> order_;
+  std::vector<Piece> distinct_;
+};
+
+/// A column for each share: what its points give to the same target is added in the order of the points.
 Columns columns_of(const SpreadingPoints& spreading, std::span<const Placement> places, const PlacedNodes& nodes,
                    bool to_nodes) {
   Columns columns;
-  std::vector<Piece> pieces;
-  std::vector<std::pair<GlobalId, int>> order;
-  std::array<double, max_nodes> shape;
+  Group group;
+  std::vector<double> sum;
   for (std::size_t g = 0; g < spreading.groups(); ++g) {
+    const std::size_t first = spreading.begin[g], count = spreading.begin[g + 1] - first;
+    group.read(places.subspan(first, count), nodes, first, to_nodes);
     for (std::size_t s = spreading.first_share[g]; s < spreading.first_share[g + 1]; ++s) {
-      pieces.clear();
-      for (std::size_t p = spreading.begin[g]; p < spreading.begin[g + 1]; ++p) {
-        const Placement& place = places[p];
-        const double part = spreading.weights[spreading.shares[s].first_weight + p - spreading.begin[g]];
-        if (!to_nodes) {
-          pieces.push_back({place.element, part, place.item, place.owner});
-          continue;
-        }
-        const PlacedNodes::Nodes at = nodes.of(p);
-        const std::span<double> weights = std::span(shape).first(place.nodes());
-        shape_weights(place, weights);
-        for (std::size_t a = 0; a < weights.size(); ++a)
-          if (weights[a] != 0) pieces.push_back({at.id[a], part * weights[a], at.at_owner[a], at.owner[a]});
+      const double* const part_of_point = spreading.weights.data() + spreading.shares[s].first_weight;
+      sum.assign(group.targets.size(), 0.0);
+      for (const Group::Part& part : group.parts) sum[part.target] += part_of_point[part.point] * part.weight;
+      for (std::size_t t = 0; t < sum.size(); ++t) {
+        columns.pieces.push_back(group.targets[t]);
+        columns.pieces.back().weight = sum[t];
       }
-      merge(pieces, order, columns.pieces);
       columns.begin.push_back(columns.pieces.size());
       normalise(columns.column(s));
     }

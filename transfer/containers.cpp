@@ -67,6 +67,7 @@ Shape shape_of(ElementKind kind, std::span<const Vec3> corners, double size) {
 /// What fit() finds on this rank.
 struct Fitted {
   double sizes = 0;
+  ExactSum exact_sizes;  ///< of surfaces, where the mean size decides
   std::int64_t sound = 0, flat = 0;
   LocalIndex inverted = no_index;  ///< the first
 };
@@ -93,7 +94,10 @@ void fit_one(ElementSet& set, LocalIndex e, double tolerance, Fitted& fitted) {
   to = Box{};
   if (shape != Shape::sound) return;
   ++fitted.sound;
-  fitted.sizes += size;
+  if (topology(kind).dimension == 2)
+    fitted.exact_sizes.add(size);
+  else
+    fitted.sizes += size;
   box.inflate(margin(tolerance, size, farthest) + bulge(kind, corners.span()));
   to = box;
 }
@@ -270,10 +274,12 @@ void refit(Containers& containers, const Mesh& mesh, std::span<const Vec3> coord
   mesh.comm.throw_if_any(error);
   containers.skipped = mesh.comm.sum(fitted.flat);
   containers.count = mesh.comm.sum(fitted.sound);
-  ExactSum sizes;
+  ExactSum sizes = fitted.exact_sizes;
   sizes.add(fitted.sizes);
   const double total = mesh.comm.sum(sizes);
-  containers.mean_size = containers.count > 0 ? total / static_cast<double>(containers.count) : 0.0;
+  // Rounded, since sums of solids depend on the ranks in their last bits.
+  const double mean = containers.count > 0 ? total / static_cast<double>(containers.count) : 0.0;
+  containers.mean_size = static_cast<double>(static_cast<float>(mean));
 }
 
 }  // namespace

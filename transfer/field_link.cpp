@@ -142,7 +142,7 @@ void FieldLink::build() {
     return current ? c.current_coordinates() : std::span<const Vec3>(c.mesh().coordinates);
   };
   // After a restart the map is first that of the interrupted run, so that it goes on as if nothing had happened.
-  const bool restored = current && !source_built_.empty();
+  const bool restored = current && restored_;
   const Grid from{&source().mesh(),       restored ? std::span<const Vec3>(source_built_) : place(source()),
                   export_.field.location, nullptr,
                   options_.blocks,        options_.side_set};
@@ -157,6 +157,7 @@ void FieldLink::follow() {
   if (options_.configuration != Configuration::current) return;
   if (!map_->update(source().current_coordinates(), target().current_coordinates())) ++updates_skipped_;
   source_built_ = {}, target_built_ = {};
+  restored_ = false;
 }
 
 void FieldLink::run() {
@@ -242,11 +243,15 @@ std::string FieldLink::round_trip() const {
   options.moving = false;
   if (options.outside == OutsidePolicy::error) options.outside = OutsidePolicy::nearest;
   options.greatest_distance = std::numeric_limits<double>::infinity();
-  const GridTransfer back({&target().mesh(), place(target()), import_.field.location},
-                          {&source().mesh(), place(source()), export_.field.location}, export_.field, options,
-                          name() + ".back");
-  return fmt::format("forth and back: values change by {:.3g} {} at most",
-                     map_->round_trip_error(back, source_values_, export_.field.components), export_.field.unit);
+  try {
+    const GridTransfer back({&target().mesh(), place(target()), import_.field.location},
+                            {&source().mesh(), place(source()), export_.field.location}, export_.field, options,
+                            name() + ".back");
+    return fmt::format("forth and back: values change by {:.3g} {} at most",
+                       map_->round_trip_error(back, source_values_, export_.field.components), export_.field.unit);
+  } catch (const Error& error) {  // on all ranks
+    return std::string("forth and back: there is no way back: ") + error.what();
+  }
 }
 
 std::vector<std::pair<std::string, ExactSum>> FieldLink::amounts() {
@@ -305,6 +310,7 @@ void FieldLink::load(const CheckpointReader& file) {
   if (options_.configuration == Configuration::current) {
     source_built_ = load_coordinates(file, "transfer." + name() + ".source_built", source().mesh());
     target_built_ = load_coordinates(file, "transfer." + name() + ".target_built", target().mesh());
+    restored_ = true;
   }
   if (!total() && !linear()) return;
   const OwnedItems to = owned_items(target().mesh(), import_.field.location);

@@ -66,6 +66,7 @@ class FieldLink : public Coupling {
   std::vector<double> prepared_values_;
   std::vector<LocalIndex> source_owned_, target_owned_;
   std::vector<Vec3> source_built_, target_built_;  // that the map of an interrupted run was built for
+  bool restored_ = false;
 };
 
 /// Positions (in an array of local items) of the items that this rank owns, and their global ids.

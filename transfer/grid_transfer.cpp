@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cassert>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -54,6 +53,16 @@ Method choose_method(const FieldDescription& field, const Grid& source, const Tr
            fmt::format("'{}' is a point value and has no amount to conserve; use method interpolate or automatic, "
                        "or transfer the amount itself (say, energy instead of temperature)",
                        field.name));
+  const bool in_elements = method == Method::interpolate || method == Method::nearest_projection;
+  if (!source.blocks.empty() && !in_elements)
+    refuse(name, "blocks can be chosen for the methods interpolate and nearest_projection only");
+  if (!source.sides.empty() && method != Method::nearest_projection)
+    refuse(name, fmt::format("side set '{}' can be chosen for method nearest_projection only", source.sides));
+  if (method == Method::nearest_projection &&
+      (options.outside == OutsidePolicy::value || options.outside == OutsidePolicy::extrapolate))
+    refuse(name,
+           "method nearest_projection gives every point the value of its foot: its outside policy is nearest or "
+           "error");
   if (method == Method::conserve && options.outside == OutsidePolicy::value)
     refuse(name, fmt::format("outside policy 'value' would lose the amounts of '{}' outside the target; use nearest, "
                              "extrapolate or error",
@@ -100,7 +109,12 @@ void check_grid(const Grid& grid, const char* which, const std::string& name) {
     refuse(name, fmt::format("the {} field lives on a {}, but {} has only points: its location is particle", which,
                              to_string(grid.location), grid.cloud->source));
   const Communicator& comm = grid.mesh ? grid.mesh->comm : grid.cloud->comm;
-  comm.throw_if_any(coordinate_error(grid, which, name));
+  std::optional<Error> error = coordinate_error(grid, which, name);
+  if (!error && !grid.mesh &&
+      std::adjacent_find(grid.cloud->ids.begin(), grid.cloud->ids.end(), std::greater_equal<>()) !=
+          grid.cloud->ids.end())
+    error = Error(ExitCode::usage, fmt::format("transfer '{}': the ids of {} do not ascend", name, grid.cloud->source));
+  comm.throw_if_any(error);
 }
 
 Partner partner_of(const Grid& grid) {
@@ -206,24 +220,27 @@ void GridTransfer::Impl::interpolate(bool again) {
       again ? locator->find_again(containers, points, moved) : locator->find(containers, points);
   if (locator->decomposed()) moved = 0;
   const bool drop = options.outside == OutsidePolicy::value && !onto_surface;
+  // Meshes of the same surface do not match: to be beside the other by less than an element is not to be outside.
+  const auto counts = [&](const Placement& place) {
+    return place.is_outside() && !(onto_surface && place.distance <= containers.mean_size);
+  };
   MissCounter counter;
   for (const LocalIndex item : target.items().owned) {
     const auto i = static_cast<std::size_t>(item);
-    // Meshes of the same surface do not match: to be beside the other is not to be outside.
-    counter.add(target.items().ids[i], points[i], places[i].distance, places[i].is_outside() && !onto_surface);
+    counter.add(target.items().ids[i], points[i], places[i].distance, counts(places[i]));
   }
   outside.clear();
   for (std::size_t i = 0; i < places.size(); ++i)
     if (places[i].is_outside())
-      outside.push_back({static_cast<LocalIndex>(i), onto_surface ? PointStatus::inside : status_of(places[i], drop),
-                         places[i].distance});
+      outside.push_back({static_cast<LocalIndex>(i),
+                         counts(places[i]) ? status_of(places[i], drop) : PointStatus::inside, places[i].distance});
   misses = counter.total(comm(), containers.skipped);
   refuse_misses(misses, options, name);
   const InterpolationSource from{containers.set, source.nodes, source.location, containers.set.stride,
                                  source.items().ids.size()};
   map = interpolation_map(comm(), from, places, drop, options.outside_value, map.take_rows(), name);
   mean_size = containers.mean_size;
-  if (!options.moving) containers = {};
+  if (!options.moving) containers = {}, locator.reset();
 }
 
 void GridTransfer::Impl::conserve() {
@@ -247,7 +264,9 @@ void GridTransfer::Impl::conserve() {
 
 /// Where both sides are the same, values are copied whatever the method. False if they are not.
 bool GridTransfer::Impl::copy() {
-  const auto entries = matching_items(source, target);
+  // The same nodes do not make the same integrals: what has to keep them needs the same volumes, too.
+  const bool integrals = field.kind == FieldKind::density || method == Method::project;
+  const auto entries = matching_items(source, target, integrals);
   if (!entries) return false;
   misses = {};
   misses.targets = comm().sum(static_cast<std::int64_t>(target.items().owned.size()));
@@ -268,6 +287,12 @@ bool GridTransfer::Impl::copy() {
     rows.set(i, std::span(&one, 1), [&](std::size_t) { return wanted.slot((*entries)[i].rank, (*entries)[i].index); });
   map = RowMap(comm(), std::move(rows), 0, wanted, name);
   return true;
+}
+
+/// A map that follows motion keeps the coordinates that it was built for, so the caller's may change.
+void GridTransfer::Impl::keep_built() {
+  if (!options.moving) return;
+  source.coordinates = source.built, target.coordinates = target.built;
 }
 
 void GridTransfer::Impl::build(bool again) {
@@ -293,6 +318,7 @@ void GridTransfer::Impl::build(bool again) {
     if (!options.moving) partner->built_fingerprint = fingerprint(partner->coordinates);
     if (options.moving) partner->built.assign(partner->coordinates.begin(), partner->coordinates.end());
   }
+  keep_built();
   source.volumes.clear();
   target.volumes.clear();
   ++built;
@@ -302,9 +328,14 @@ void GridTransfer::Impl::apply(std::span<const TransferItem> fields) const {
   std::size_t width = 0;
   for (const TransferItem& f : fields) {
     const auto n = static_cast<std::size_t>(f.components);
-    assert(f.source.size() == n * source.items().ids.size() && f.target.size() == n * target.items().ids.size());
+    if (f.source.size() != n * source.items().ids.size() || f.target.size() != n * target.items().ids.size())
+      refuse(name,
+             fmt::format("apply() was given {} values of the source and {} of the target, of {} components; this "
+                         "rank has {} and {} local items",
+                         f.source.size(), f.target.size(), n, source.items().ids.size(), target.items().ids.size()));
     width += n;
   }
+  if (broken) refuse(name, "its last update failed, so there is no map to apply");
   ++applied;
   if (projection) {
     for (const TransferItem& f : fields) projection->apply(f.source, f.target, f.components);
@@ -348,6 +379,8 @@ GridTransfer::GridTransfer(const Grid& source, const Grid& target, const FieldDe
 }
 
 GridTransfer::~GridTransfer() = default;
+GridTransfer::GridTransfer(GridTransfer&&) noexcept = default;
+GridTransfer& GridTransfer::operator=(GridTransfer&&) noexcept = default;
 
 void GridTransfer::apply(std::span<const double> source, std::span<double> target, int components) const {
   const TransferItem item{source, target, components};
@@ -367,9 +400,9 @@ double farthest_squared(const Partner& partner) {
   for (std::size_t i = 0; i < partner.built.size(); ++i) {
     const Vec3 way = partner.coordinates[i] - partner.built[i];
     const double squared = dot(way, way);
-    farthest = squared <= farthest ? farthest : squared;  // takes what is not a number, and keeps it
+    if (!(squared <= farthest)) farthest = squared < infinite ? squared : infinite;  // what is not a number, too
   }
-  return farthest < infinite ? farthest : infinite;
+  return farthest;
 }
 
 }  // namespace
@@ -397,16 +430,20 @@ double GridTransfer::Impl::farthest_motion(std::span<const Vec3> source_now, std
 bool GridTransfer::update(std::span<const Vec3> source_coordinates, std::span<const Vec3> target_coordinates) {
   Impl& impl = *impl_;
   const double farthest = impl.farthest_motion(source_coordinates, target_coordinates);
-  if (farthest == 0) return false;
-  if (impl.options.moving) {
+  if (farthest == 0 && !impl.broken) return impl.keep_built(), false;
+  if (impl.options.moving && !impl.broken) {
     constexpr double rigid_tolerance = 1e-10;  // of an element's size
     if (moved_rigidly(impl.source, impl.target, rigid_tolerance * impl.mean_size)) {
       ++impl.rigid;
-      return false;
+      return impl.keep_built(), false;
     }
     impl.moved += farthest;
   }
-  impl.build(true);
+  const bool again = !impl.broken;
+  impl.broken = true;  // unless the map gets done
+  if (!again) impl.locator.reset();
+  impl.build(again);
+  impl.broken = false;
   return true;
 }
 
@@ -430,6 +467,10 @@ std::int64_t GridTransfer::searched() const {
 }
 
 void GridTransfer::status(std::span<PointStatus> status, std::span<double> distance) const {
+  const std::size_t items = impl_->target.items().ids.size();
+  if (status.size() != items || distance.size() != items)
+    refuse(impl_->name, fmt::format("status() was given {} and {} places; this rank has {} local target items",
+                                    status.size(), distance.size(), items));
   std::fill(status.begin(), status.end(), PointStatus::inside);
   std::fill(distance.begin(), distance.end(), 0.0);
   for (const OutsideItem& item : impl_->outside) {

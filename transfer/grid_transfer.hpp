@@ -52,7 +52,7 @@ struct TransferOptions {
 
 /// One side: a mesh or a cloud of points, where it stands now, and where the field lives. `coordinates` are of all
 /// local nodes, or of the points of the cloud; they must stay valid, and unchanged, as long as the map is used or until
-/// update() gives others.
+/// update() gives others; with TransferOptions::moving, only during the call.
 struct Grid {
   const Mesh* mesh = nullptr;
   std::span<const Vec3> coordinates;
@@ -101,7 +101,8 @@ struct TransferItem {
   int components = 1;
 };
 
-/// A map between two meshes with decompositions of their own, over the same communicator. Point values: each target
+/// A map between two meshes, or clouds of points, with decompositions of their own, over the same communicator. By
+/// interpolation each target
 /// point takes the shape functions of the source element that contains it (the smallest global id on shared faces).
 /// Totals: each source element's amount is spread by quadrature points over the shape functions of the target element
 /// that contains each (the transpose of interpolation): sums are kept to round-off; a node's total goes by the point at
@@ -111,9 +112,12 @@ struct TransferItem {
 /// coordinates that the map was built for. Element values are constant over their element. Bitwise the same on any
 /// ranks.
 ///
-/// Pairings: point values are interpolated; totals are conserved; densities are conserved, or interpolated if asked for
-/// by name (their integral is then only approximated). Everything else is refused: to interpolate a total, to conserve
-/// a point value, to transfer a flux, and OutsidePolicy::value where amounts would vanish.
+/// Pairings, unless another method is asked for by name: point values are interpolated (onto the nearest surface from
+/// surfaces, by moving least squares from clouds); totals and densities are conserved. Point values and densities can
+/// also be projected (see Projection): second order, and the integral of the whole source is kept. What makes no sense
+/// is refused: to interpolate a total, to conserve a point value, to transfer a flux, OutsidePolicy::value where
+/// amounts would vanish, densities of clouds. Sides that match (ids and places; volumes, too, where integrals count)
+/// are copied. Only interpolation and nearest_projection follow motion incrementally; the others are rebuilt.
 class GridTransfer {
  public:
   /// Collective. Builds the map. The meshes must outlive it. Throws Error(usage) for a pairing that makes no sense
@@ -122,12 +126,15 @@ class GridTransfer {
   GridTransfer(const Grid& source, const Grid& target, const FieldDescription& field, const TransferOptions& options,
                std::string name);
   ~GridTransfer();
+  GridTransfer(GridTransfer&&) noexcept;
+  GridTransfer& operator=(GridTransfer&&) noexcept;
 
   /// Collective. `source`: all local items of the source x components; `target`: all local items of the target, every
   /// one set (ghosts included). No allocation after the first call with that many components.
   void apply(std::span<const double> source, std::span<double> target, int components) const;
 
-  /// Collective. Several fields at once, each as above: one message per neighbour for all of them.
+  /// Collective. Several fields at once, each as above: one message per neighbour for all of them (projections go one
+  /// by one).
   void apply(std::span<const TransferItem> fields) const;
 
   /// Collective. Rebuilds the map where the meshes stand now, as far as their motion demands: not at all if no
@@ -153,10 +160,10 @@ class GridTransfer {
   /// Updates that a rigid common motion made needless; points that the last build or update searched for on this rank.
   std::int64_t rigid_motions() const;
   std::int64_t searched() const;
-  /// Local: status, and distance from the source (m; 0 inside), of all local target items. Of interpolation; other
-  /// methods have all inside.
+  /// Local: status, and distance from the source (m; 0 inside), of all local target items. Methods that
+  /// spread amounts have all inside, as has a projection onto elements.
   void status(std::span<PointStatus> status, std::span<double> distance) const;
-  /// Whether the map interpolates or conserves; never automatic.
+  /// The method that was chosen; never automatic.
   Method method() const;
 
  private:

@@ -57,6 +57,7 @@ struct GridTransfer::Impl {
   Misses misses;
   std::vector<OutsideItem> outside;
   std::int64_t built = 0, rigid = 0;
+  bool broken = false;  ///< the last update has thrown
   bool copied = false;  ///< the sides match, and values are copied
 
   // Of interpolation that follows motion.
@@ -72,6 +73,7 @@ struct GridTransfer::Impl {
 
   const Communicator& comm() const { return target.comm(); }
   void build(bool again);
+  void keep_built();
   double farthest_motion(std::span<const Vec3> source_now, std::span<const Vec3> target_now);
   void interpolate(bool again);
   void project();
@@ -117,8 +119,8 @@ void refuse_misses(const Misses& misses, const TransferOptions& options, const s
 [[noreturn]] void refuse(const std::string& name, const std::string& why);
 
 /// Collective. Whether both sides have the same items at the same places (same ids), and if so where each target item's
-/// source is kept.
-std::optional<std::vector<DirectoryEntry>> matching_items(const Partner& source, const Partner& target);
+/// source is kept. With `volumes`, these have to be the same, too (to round-off: a node's adds up over elements).
+std::optional<std::vector<DirectoryEntry>> matching_items(const Partner& source, const Partner& target, bool volumes);
 
 /// Collective. Edge of the cubes that as many items would be in the box of all, m.
 double mean_spacing(const Partner& partner);

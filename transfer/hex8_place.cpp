@@ -141,10 +141,11 @@ TENON_KERNEL void put_within(const Corners& corners, Local& at) {
   const auto within = [&](const Lanes& v) { return lesser_of(greater_of(v, -one), one); };
   at.xi = within(at.xi), at.eta = within(at.eta), at.zeta = within(at.zeta);
   const Lanes least = lesser_of(lesser_of(magnitude(at.xi), magnitude(at.eta)), magnitude(at.zeta));
-  if (!any_lane(least > 1 - 1e-9)) return;
+  const LaneMask near = least > 1 - 1e-9;  // a corner
+  if (!any_lane(near)) return;
   const auto nearest = [&](const Lanes& v) { return v < 0.0 ? -one : one; };
   for (int a = 0; a < 8; ++a) {
-    const LaneMask here = (corners.x[a][0] == 0.0) & (corners.x[a][1] == 0.0) & (corners.x[a][2] == 0.0);
+    const LaneMask here = near & (corners.x[a][0] == 0.0) & (corners.x[a][1] == 0.0) & (corners.x[a][2] == 0.0);
     at.xi = here ? nearest(at.xi) : at.xi;
     at.eta = here ? nearest(at.eta) : at.eta;
     at.zeta = here ? nearest(at.zeta) : at.zeta;

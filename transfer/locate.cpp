@@ -18,7 +18,7 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 /// How far elements and points may move before a rendezvous made for motion is made anew, in mean element sizes.
-constexpr double skin_of_size = 0.5;
+constexpr double skin_of_size = 1;
 
 /// What travels of an element besides its corners and its box.
 struct ElementHead {
@@ -117,6 +117,9 @@ void Locator::build(const Containers& containers, std::span<const Vec3> points) 
   reach_ = containers.mean_size / 3;
   skin_ = moving_ ? skin_of_size * containers.mean_size : 0;
   decomposed_ = true;
+  absent_.clear();
+  if (moving_)
+    for (const Box& box : containers.set.boxes) absent_.push_back(box.empty());
   if (comm_.size() == 1) {
     tree_.build(containers.set.boxes);
     return;
@@ -176,7 +179,7 @@ void Locator::look_farther(const Containers& containers, std::span<const Vec3> p
     around = global_box(comm_, around);
     Box everything = source;
     everything.add(around);
-    if (reach > 8 * everything.diagonal())  // the same on every rank
+    if (!(reach <= 8 * everything.diagonal()) || !std::isfinite(reach))  // the same on every rank
       throw Error(ExitCode::geometry, fmt::format("transfer '{}': no element of the mesh has a finite distance to the "
                                                   "points near ({:.6g}, {:.6g}, {:.6g}); check its coordinates",
                                                   name_, around.low[0], around.low[1], around.low[2]));
@@ -215,11 +218,18 @@ const std::vector<Placement>& Locator::find(const Containers& containers, std::s
   return places_;
 }
 
+/// Whether an element has gained volume that had none when the rendezvous was made.
+bool Locator::newcomers(const Containers& containers) const {
+  for (std::size_t e = 0; e < absent_.size(); ++e)
+    if (absent_[e] && !containers.set.boxes[e].empty()) return true;
+  return false;
+}
+
 const std::vector<Placement>& Locator::find_again(const Containers& containers, std::span<const Vec3> points,
                                                   double moved) {
   const bool known = comm_.size() == 1 ? held_.size() == points.size() : search_ != nullptr;
   // An element meets its points as long as both together have moved by less than the skin.
-  if (comm_.any(!known) || (comm_.size() > 1 && 2 * moved > skin_)) return find(containers, points);
+  if (comm_.any(!known) || 2 * moved > skin_ || comm_.any(newcomers(containers))) return find(containers, points);
   if (containers.count == 0) return find(containers, points);  // which refuses
   decomposed_ = false;
   if (comm_.size() > 1) {

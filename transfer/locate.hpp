@@ -43,7 +43,7 @@ class Locator {
   std::int64_t memory() const;
 
  private:
-  void bring_elements(const Containers& containers);
+  bool newcomers(const Containers& containers) const;
   void build(const Containers& containers, std::span<const Vec3> points);
   void search(const Containers& containers, std::span<const Vec3> points, bool again);
   void look_farther(const Containers& containers, std::span<const Vec3> points);
@@ -64,6 +64,7 @@ class Locator {
   std::vector<LocalIndex> held_;   // of the points here
   std::vector<Placement> places_;  // of the points of this rank
   std::vector<Placement> here_;    // of the points here, on several ranks
+  std::vector<char> absent_;       // elements that had no volume, and so went nowhere
   std::vector<float> work_;        // of the points of this rank, for the balance of the next decomposition
   std::int64_t searched_ = 0;
   bool decomposed_ = false;

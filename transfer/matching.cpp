@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "transfer/element_points.hpp"
 #include "transfer/grid_transfer_impl.hpp"
 
 namespace tenon::transfer {
@@ -25,6 +26,18 @@ std::vector<Vec3> places_of(const Partner& partner) {
   return {partner.coordinates.begin(), partner.coordinates.end()};
 }
 
+/// Collective. Of all local items, m^3; none of points.
+std::vector<double> volumes_of(const Partner& partner) {
+  if (!partner.mesh) return std::vector<double>(partner.items().ids.size(), 0.0);
+  return item_volumes(*partner.mesh, partner.coordinates, partner.location);
+}
+
+bool same_volumes(std::span<const double> a, std::span<const double> b) {
+  for (std::size_t i = 0; i < a.size(); ++i)
+    if (!(std::abs(a[i] - b[i]) <= 1e-12 * std::abs(a[i]))) return false;
+  return a.size() == b.size();
+}
+
 std::vector<DirectoryEntry> in_order(std::size_t count) {
   std::vector<DirectoryEntry> entries(count);
   for (std::size_t i = 0; i < count; ++i) entries[i] = {0, static_cast<LocalIndex>(i)};
@@ -33,7 +46,7 @@ std::vector<DirectoryEntry> in_order(std::size_t count) {
 
 }  // namespace
 
-std::optional<std::vector<DirectoryEntry>> matching_items(const Partner& source, const Partner& target) {
+std::optional<std::vector<DirectoryEntry>> matching_items(const Partner& source, const Partner& target, bool volumes) {
   const Communicator& comm = target.comm();
   if (source.location != target.location || !source.choice.blocks.empty() || !source.choice.sides.empty())
     return std::nullopt;
@@ -44,6 +57,7 @@ std::optional<std::vector<DirectoryEntry>> matching_items(const Partner& source,
     if (source.location != Location::element && !same_bits(source.coordinates, target.coordinates)) return std::nullopt;
     if (source.location == Location::element && !same_bits(places_of(source), places_of(target))) return std::nullopt;
     if (!std::equal(from.ids.begin(), from.ids.end(), to.ids.begin(), to.ids.end())) return std::nullopt;
+    if (volumes && !same_volumes(volumes_of(source), volumes_of(target))) return std::nullopt;
     return in_order(to.ids.size());
   }
   std::vector<GlobalId> ids;
@@ -59,9 +73,14 @@ std::optional<std::vector<DirectoryEntry>> matching_items(const Partner& source,
   }
   const std::vector<Vec3> mine = places_of(source);
   std::vector<Vec3> theirs(entries.size());
-  ExchangePlan::from_owners(comm, owner, index, into, "matching items")
-      .forward(std::span<const Vec3>(mine), std::span<Vec3>(theirs));
+  const ExchangePlan plan = ExchangePlan::from_owners(comm, owner, index, into, "matching items");
+  plan.forward(std::span<const Vec3>(mine), std::span<Vec3>(theirs));
   if (comm.any(!same_bits(theirs, places_of(target)))) return std::nullopt;
+  if (!volumes) return entries;
+  const std::vector<double> here = volumes_of(source);
+  std::vector<double> there(entries.size());
+  plan.forward(std::span<const double>(here), std::span<double>(there));
+  if (comm.any(!same_volumes(there, volumes_of(target)))) return std::nullopt;
   return entries;
 }
 

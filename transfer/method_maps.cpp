@@ -45,12 +45,16 @@ void GridTransfer::Impl::project() {
   misses = counter.total(comm(), sought.skipped);
   refuse_misses(misses, options, name);
   outside.clear();
-  const bool to_nodes = target.location == Location::node;
+  if (target.location != Location::node) return;
+  std::vector<double> distance(target.coordinates.size(), 0.0);
   const std::span<const LocalIndex> owned = target.nodes.owned;
-  for (std::size_t k = 0; to_nodes && k < owned.size(); ++k)
-    if (sought.places[k].is_outside())
-      outside.push_back(
-          {owned[k], rules.extrapolate ? PointStatus::extrapolated : PointStatus::nearest, sought.places[k].distance});
+  for (std::size_t k = 0; k < owned.size(); ++k)
+    if (sought.places[k].is_outside()) distance[static_cast<std::size_t>(owned[k])] = sought.places[k].distance;
+  target.mesh->node_halo.forward(std::span<const double>(distance), std::span<double>(distance));
+  for (std::size_t i = 0; i < distance.size(); ++i)
+    if (distance[i] > 0)
+      outside.push_back({static_cast<LocalIndex>(i),
+                         rules.extrapolate ? PointStatus::extrapolated : PointStatus::nearest, distance[i]});
 }
 
 void GridTransfer::Impl::fit() {

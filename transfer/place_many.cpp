@@ -65,7 +65,7 @@ class Placer {
   void place(const Points& points, const Places& places, std::size_t count) {
     if (!find_leaves(points, count)) return place_halves(points, places, count);
     for (std::size_t i = 0; i < count; ++i) {
-      if (free_count_ == 0) run(waiting_);
+      while (free_count_ == 0) run(waiting_);  // ends: candidates are finite
       const std::uint8_t s = free_[--free_count_];
       State& state = states_[s];
       state.point = points[i], state.place = places[i];
@@ -128,14 +128,28 @@ class Placer {
     state.count = state.next = 0;
     for (const LocalIndex leaf : leaves_)
       for (unsigned hits = tree_.hits(leaf, point); hits != 0; hits &= hits - 1) {
-        if (state.count == most_candidates) return false;
         const LocalIndex e = tree_.in_leaf(leaf, std::countr_zero(hits));
+        if (state.count == most_candidates && !make_room(state, e)) return false;
+        if (state.count == most_candidates) continue;
         std::size_t k = state.count++;
         for (const GlobalId id = elements_.id(e); k > 0 && elements_.id(state.candidate[k - 1]) > id; --k)
           state.candidate[k] = state.candidate[k - 1];
         state.candidate[k] = e;
       }
     return true;
+  }
+
+  /// Of a full list, leaves those whose boxes really hold the point; what the leaves say beyond depends on the origin
+  /// of the tree. False if the list stays full and e belongs to it, too.
+  bool make_room(State& state, LocalIndex e) const {
+    const auto holds = [&](LocalIndex c) {
+      return elements_.boxes[static_cast<std::size_t>(c)].contains(*state.point);
+    };
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < state.count; ++k)
+      if (holds(state.candidate[k])) state.candidate[kept++] = state.candidate[k];
+    state.count = kept;
+    return kept < most_candidates || !holds(e);
   }
 
   void place_one(const Vec3& point, Placement& place) {

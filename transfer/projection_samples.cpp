@@ -228,7 +228,9 @@ TargetSamples samples_in_target(const Side& source, const Side& target, const Pl
   std::vector<Sample> arrived;
   {
     const Containers containers = containers_of(target.mesh, target.coordinates, {}, rules.tolerance, name);
-    Candidates candidates(source, box_of(comm, containers), spacing, tables);
+    Box box = box_of(comm, containers);
+    if (containers.surfaces) box.inflate(containers.mean_size / 3);  // the greatest gap that is bridged
+    Candidates candidates(source, box, spacing, tables);
     std::vector<Sample> samples;
     std::vector<int> owners;
     Finder finder(comm, containers, rules, name + ".locate");

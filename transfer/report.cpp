@@ -69,7 +69,8 @@ TransferReport GridTransfer::report(std::span<const double> source, std::span<co
   const bool measurable = total || (impl_->source.mesh && impl_->target.mesh);
   const double difference = measurable ? std::abs(to.value - from.value) : 0.0;
   report.mismatch = from.magnitude > 0 ? difference / from.magnitude : difference;
-  if (!total && impl_->source.mesh && !impl_->copied)
+  const bool estimable = !total && impl_->source.mesh && impl_->source.mesh->global_elements > 0 && !impl_->copied;
+  if (estimable)
     report.error_estimate = impl_->error(source, target, components, thoroughness == Thoroughness::full ? 0 : few);
   if (impl_->projection) {
     const ProjectionOutcome& outcome = impl_->projection->outcome();

@@ -177,10 +177,13 @@ class TransferRun {
     }
     for (std::size_t i = 0; i < fields.size(); ++i)
       travelling.push_back({sent[i], arrived[i].values, fields[i]->description.components});
-    map.apply(travelling);
+    // A projection tells of its last application only: those go one by one, each with its report.
+    const bool together = map.method() != transfer::Method::project;
+    if (together) map.apply(travelling);
     if (arguments_.status) take_status(map, first.to);
     const std::optional<GridTransfer> back = arguments_.report ? way_back(from, to, first) : std::nullopt;
     for (std::size_t i = 0; i < fields.size(); ++i) {
+      if (!together) map.apply(std::span(travelling).subspan(i, 1));
       arrived[i].said.report = map.report(sent[i], arrived[i].values, fields[i]->description.components);
       if (back) arrived[i].said.round_trip = map.round_trip_error(*back, sent[i], fields[i]->description.components);
       arrived_.push_back(std::move(arrived[i]));
@@ -201,9 +204,10 @@ class TransferRun {
     }
   }
 
-  /// What became of the points of a map; of several maps to the same place, the first that interpolates tells.
+  /// What became of the points of a map; of several maps to the same place, the first that seeks them in the source
+  /// tells.
   void take_status(const GridTransfer& map, Location to) {
-    const bool tells = map.method() == transfer::Method::interpolate;
+    const bool tells = map.method() != transfer::Method::conserve && map.method() != transfer::Method::copy;
     const auto known = std::ranges::find(status_, to, &Status::to);
     if (known != status_.end() && (known->tells || !tells)) return;
     const auto items = static_cast<std::size_t>(to == Location::node ? target_->nodes() : target_->elements());

@@ -133,16 +133,18 @@ PlannedField planned(const TransferArguments& arguments, const FieldData& stored
 
 std::string output_path(const TransferArguments& arguments) {
   namespace fs = std::filesystem;
-  if (arguments.output.empty()) return fs::path(arguments.target).stem().string() + ".fields.vtu";
-  const std::string extension = fs::path(arguments.output).extension().string();
+  const bool by_default = arguments.output.empty();
+  const std::string output = by_default ? fs::path(arguments.target).stem().string() + ".fields.vtu" : arguments.output;
+  const std::string extension = fs::path(output).extension().string();
   if (extension != ".vtu" && extension != ".pvtu")
-    refuse(fmt::format("--output: '{}' ends neither as .vtu (one file) nor as .pvtu (a piece for each rank)",
-                       arguments.output));
-  std::error_code none;
+    refuse(fmt::format("--output: '{}' ends neither as .vtu (one file) nor as .pvtu (a piece for each rank)", output));
+  // By their names only: every rank comes here, and files need not be there for all.
+  const auto named = [](const std::string& path) { return fs::absolute(path).lexically_normal(); };
   for (const std::string& input : {arguments.source, arguments.target})
-    if (fs::equivalent(input, arguments.output, none))
-      refuse(fmt::format("--output: '{}' would replace the input", arguments.output));
-  return arguments.output;
+    if (named(input) == named(output))
+      refuse(fmt::format("--output: {}'{}' would replace the input; give another name",
+                         by_default ? "the default " : "", output));
+  return output;
 }
 
 }  // namespace

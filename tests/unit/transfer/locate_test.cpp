@@ -111,6 +111,19 @@ TEST(Locate, PointsAroundAndFarAway) {
   }
 }
 
+TEST(Locate, ShearedElementsWhoseBoxesOverlapManyTimes) {
+  // Each point is in a dozen boxes and in the element with the highest id of them.
+  MeshData sheared = testing::box(12);
+  for (Vec3& x : sheared.coordinates) x[0] += 12 * x[2];
+  std::vector<Vec3> points;
+  for (int k = 0; k < 12; ++k)
+    for (int i = 0; i < 30; ++i) {
+      const double z = (k + 0.05) / 12;
+      points.push_back({(i + 0.5) / 30 + 12 * z, 0.37, z});
+    }
+  compare(std::move(sheared), points, {});
+}
+
 TEST(Locate, MixedKinds) {
   compare(testing::mixed_box(3), random_points(200, -0.1, 1.1, 4), {});
 }

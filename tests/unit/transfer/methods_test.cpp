@@ -4,6 +4,7 @@
 
 #include <bit>
 #include <cmath>
+#include <limits>
 
 #include "transfer_testing.hpp"
 
@@ -62,7 +63,7 @@ MeshData with_skin(MeshData mesh) {
 
 FieldDescription field(FieldKind kind) {
   FieldDescription f;
-  f.name = "f", f.kind = kind;
+  f.kind = kind;
   return f;
 }
 
@@ -177,6 +178,42 @@ TEST(Methods, MatchingMeshesAreCopiedBitForBit) {
   EXPECT_THROW(
       GridTransfer(grid_of(*a), grid_of(*other), field(FieldKind::point_value), {.method = Method::copy}, "test"),
       Error);
+}
+
+TEST(Methods, SameNodesButOtherElementsKeepTheIntegral) {
+  const auto hex = distributed(testing::box(2));
+  const auto tet = distributed(testing::box(2, {.tetrahedra = true}));
+  const std::vector<double> values =
+      testing::sampled(*hex, Location::node, [](const Vec3& x) { return x[0] * x[1] * x[2] == 1 ? 1.0 : 0.0; });
+  for (const Method method : {Method::conserve, Method::project}) {
+    const GridTransfer map(grid_of(*hex), grid_of(*tet), field(FieldKind::density), {.method = method}, "test");
+    std::vector<double> result(tet->coordinates.size());
+    map.apply(values, result, 1);
+    const TransferReport report = map.report(values, result, 1);
+    EXPECT_NEAR(report.source_integral, 1.0 / 64, 1e-15);
+    EXPECT_NEAR(report.target_integral, 1.0 / 64, 1e-15);
+  }
+}
+
+TEST(Methods, MovingMapsRefuseWhatIsNoPlaceAndRecover) {
+  const auto source = distributed(testing::box(4)), target = distributed(testing::box(5));
+  std::vector<Vec3> y = target->coordinates;
+  GridTransfer map(grid_of(*source), {.mesh = target.get(), .coordinates = y}, field(FieldKind::point_value),
+                   {.outside = OutsidePolicy::error, .moving = true}, "test");
+  const std::vector<double> values = sampled(source->coordinates);
+  std::vector<double> result(y.size());
+  if (!y.empty()) y[y.size() / 2][1] = std::nan("");
+  EXPECT_THROW(map.update(source->coordinates, y), Error);
+  y = target->coordinates;
+  for (Vec3& x : y) x[0] += 0.3;
+  EXPECT_THROW(map.update(source->coordinates, y), Error);  // outside
+  EXPECT_THROW(map.apply(values, result, 1), Error);
+  y = target->coordinates;
+  for (Vec3& x : y) x = 0.9 * x;
+  EXPECT_TRUE(map.update(source->coordinates, y));
+  map.apply(values, result, 1);
+  EXPECT_LT(greatest_error(y, result), 1e-13);
+  EXPECT_THROW(map.apply(values, std::span(result).first(result.size() / 2), 1), Error);
 }
 
 TEST(Methods, StatusTellsWhatBecameOfPointsOutside) {
