@@ -104,6 +104,9 @@ void add_transfer_options(CLI::App& command, tenon::TransferArguments& a) {
       ->allow_extra_args(false);
   command.add_option("--sides", a.sides,
                      "Side set of the source that nearest_projection projects to (default: its skin)");
+  command.add_flag("--bounded", a.bounded, "Of project: no value beyond those of the source around it");
+  command.add_option("--neighbours", a.neighbours, "Of moving_least_squares: points that each fit looks at")
+      ->capture_default_str();
   command.add_flag("--status", a.status,
                    "Write transfer_status (0 inside, 1 nearest, 2 extrapolated, 3 value) and transfer_distance, too");
   command.add_flag(

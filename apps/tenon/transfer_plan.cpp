@@ -168,6 +168,10 @@ TransferSettings transfer_settings(const TransferArguments& arguments) {
     settings.options.greatest_distance = quantity(arguments.greatest_distance, "m", "--greatest-distance");
     if (!(settings.options.greatest_distance >= 0)) refuse("--greatest-distance: expected no less than 0 m");
   }
+  settings.options.bounded = arguments.bounded;
+  settings.options.neighbours = arguments.neighbours;
+  if (arguments.neighbours < 4 || arguments.neighbours > 64)
+    refuse(fmt::format("--neighbours: {} is not between 4 and 64", arguments.neighbours));
   if (arguments.time != "last") settings.state.time = quantity(arguments.time, "s", "--time");
   settings.source_unit = length(arguments.source_unit, "--source-unit");
   settings.target_unit = length(arguments.target_unit, "--target-unit");
@@ -203,6 +207,20 @@ std::vector<PlannedField> plan_fields(const TransferArguments& arguments, const 
   }
   if (arguments.fields.empty())
     for (std::size_t stored = 0; stored < fields.size(); ++stored) add(stored, "");
+  const auto collides = [&](const PlannedField& field) {
+    const auto same = [&](const PlannedField& p) {
+      return p.description.name == field.description.name && p.to == field.to;
+    };
+    const std::string& name = field.description.name;
+    return std::ranges::count_if(plan, same) > 1 ||
+           (arguments.status && (name == "transfer_status" || name == "transfer_distance"));
+  };
+  for (const PlannedField& field : plan)
+    if (collides(field))
+      refuse(
+          fmt::format("--fields: two fields would be called '{}' in the output; choose fields by name, or leave out "
+                      "--at or --status",
+                      field.description.name));
   for (const std::string& text : arguments.kinds) {
     const auto [name, kind] = parted(text, {});
     if (kind.empty()) refuse(fmt::format("--kind: '{}' is not of the form NAME:KIND, as heat:total", text));

@@ -24,6 +24,8 @@ struct TransferArguments {
   std::string source_unit = "m", target_unit = "m";  ///< of coordinates
   std::vector<std::string> blocks;                   ///< of the source, that points are sought in; empty: all
   std::string sides;                                 ///< of the source, for nearest_projection
+  bool bounded = false;                              ///< of project
+  int neighbours = 20;                               ///< of moving_least_squares
   bool status = false;                               ///< write what became of each point, too
   bool report = false;                               ///< say more
 };
