@@ -56,6 +56,8 @@ class TransferCommand : public ::testing::Test {
     arguments_.source = folder_ + "source.pvtu", arguments_.target = folder_ + "target.exo";
     arguments_.target_unit = "mm", arguments_.output = folder_ + "result.vtu";
   }
+  /// Nobody clears the folder for the next test while others still read.
+  void TearDown() override { comm_.barrier(); }
   ResultData transferred() {
     transfer_results(comm_, arguments_);
     return read_vtk_result(arguments_.output, {}, "");
