@@ -29,23 +29,35 @@ void write_inside(const ElementSet& elements, LocalIndex at, const Vec3& xi, std
   place.kind = elements.kind(at), place.state = PlaceState::inside, place.work = static_cast<std::uint8_t>(work);
 }
 
-/// Whether a plane parallel to two of the three directions of a hexahedron has the point on one side and all corners on
-/// the other, by more than any tolerance: then it is outside, whatever Newton does.
+/// Whether a plane has the point on one side and all corners on the other, by more than any tolerance: then the point
+/// is outside, whatever Newton does, and at no price (there may be no solution to find). Planes parallel to the faces
+/// are tried, and for hexahedra those parallel to two of the three directions.
 bool plainly_outside(const ElementSet& elements, LocalIndex e, const Vec3& point, double tolerance) {
+  const Topology& t = topology(elements.kind(e));
   const LocalIndex* const nodes = elements.nodes_of(e);
-  std::array<Vec3, 8> x;
-  for (std::size_t a = 0; a < 8; ++a) x[a] = elements.x[static_cast<std::size_t>(nodes[a])] - point;
-  const Vec3 xi = (x[1] + x[2] + x[5] + x[6]) - (x[0] + x[3] + x[4] + x[7]);
-  const Vec3 eta = (x[2] + x[3] + x[6] + x[7]) - (x[0] + x[1] + x[4] + x[5]);
-  const Vec3 zeta = (x[4] + x[5] + x[6] + x[7]) - (x[0] + x[1] + x[2] + x[3]);
-  for (const Vec3& normal : {cross(eta, zeta), cross(zeta, xi), cross(xi, eta)}) {
+  const auto count = static_cast<std::size_t>(t.nodes);
+  std::array<Vec3, max_linear_nodes> x;
+  if (count > x.size()) return false;  // curved sides
+  for (std::size_t a = 0; a < count; ++a) x[a] = elements.x[static_cast<std::size_t>(nodes[a])] - point;
+  const auto separates = [&](const Vec3& normal) {
     double least = infinite, greatest = -infinite;
-    for (const Vec3& corner : x) {
-      const double height = dot(normal, corner);
+    for (std::size_t a = 0; a < count; ++a) {
+      const double height = dot(normal, x[a]);
       least = std::min(least, height), greatest = std::max(greatest, height);
     }
-    const double room = (1e-2 + 4 * tolerance) * (greatest - least);
-    if (least > room || greatest < -room) return true;
+    const double room = (1e-9 + 4 * tolerance) * (greatest - least);
+    return least > room || greatest < -room;
+  };
+  if (t.kind == ElementKind::hex8) {
+    const Vec3 xi = (x[1] + x[2] + x[5] + x[6]) - (x[0] + x[3] + x[4] + x[7]);
+    const Vec3 eta = (x[2] + x[3] + x[6] + x[7]) - (x[0] + x[1] + x[4] + x[5]);
+    const Vec3 zeta = (x[4] + x[5] + x[6] + x[7]) - (x[0] + x[1] + x[2] + x[3]);
+    if (separates(cross(eta, zeta)) || separates(cross(zeta, xi)) || separates(cross(xi, eta))) return true;
+  }
+  for (std::size_t s = 0; s < static_cast<std::size_t>(t.sides); ++s) {
+    const auto corner = [&](std::size_t k) { return x[static_cast<std::size_t>(t.side[s][k])]; };
+    const bool quad = t.side_nodes[s] == 4;
+    if (separates(cross(corner(2) - corner(0), quad ? corner(3) - corner(1) : corner(1) - corner(0)))) return true;
   }
   return false;
 }
@@ -185,6 +197,8 @@ class Placer {
   bool try_alone(State& state, LocalIndex candidate) {
     const ElementKind kind = elements_.kind(candidate);
     if (topology(kind).dimension != 3) return false;
+    if (kind != ElementKind::tet4 && plainly_outside(elements_, candidate, *state.point, rules_.tolerance))
+      return false;
     const InverseMap inverse = inverse_map(kind, CornerList(elements_, candidate).span(), *state.point);
     return inverse.converged && take(state, candidate, overshoot(kind, inverse.xi), inverse.xi);
   }
@@ -210,8 +224,7 @@ class Placer {
     for (std::size_t l = 0; l < count; ++l) {
       State& state = states_[queued[l].state];
       if (!at.converged[l]) {
-        const bool outside = plainly_outside(elements_, queued[l].element, *state.point, rules_.tolerance);
-        if (!outside && try_alone(state, queued[l].element)) state.next = state.count;
+        if (try_alone(state, queued[l].element)) state.next = state.count;
         advance(queued[l].state);
       } else if (take(state, queued[l].element, at.overshoot[l], at.xi[l])) {
         write_inside(elements_, queued[l].element, at.xi[l], state.next, *state.place);
