@@ -115,6 +115,13 @@ Rows with_rows_replaced(const Rows& rows, std::span<const OutsideItem> items, co
 /// Throws Error(geometry) if the policy or the greatest distance does not allow for those misses.
 void refuse_misses(const Misses& misses, const TransferOptions& options, const std::string& name);
 
+/// The method that a field asks for. Throws Error(usage) for what makes no sense; depends on arguments that are the
+/// same on every rank.
+Method choose_method(const FieldDescription& field, const Grid& source, const TransferOptions& options,
+                     const std::string& name);
+/// Throws Error(usage).
+void check_options(const TransferOptions& options, const std::string& name);
+
 /// Throws Error(usage): "transfer 'name': why".
 [[noreturn]] void refuse(const std::string& name, const std::string& why);
 

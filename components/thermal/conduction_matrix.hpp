@@ -80,9 +80,9 @@ class ConductionMatrix {
   std::vector<ElementTable> tables_;        // of blocks
   std::vector<LocalIndex> offsets_, columns_;
   std::vector<double> values_, diagonal_;
-  std::vector<LocalIndex> row_of_node_;                          // no_index for ghosts
-  std::vector<LocalIndex> places_;                               // of K_ab, then K_ba, for each pair of each element
-  std::vector<std::size_t> first_place_;                         // of blocks
+  std::vector<LocalIndex> row_of_node_;                         // no_index for ghosts
+  std::vector<LocalIndex> places_;                              // of K_ab, then K_ba, for each pair of each element
+  std::vector<std::size_t> first_place_;                        // of blocks
   std::vector<std::array<double, max_linear_nodes>> capacity_;  // of elements
   Stiffest stiffest_;
 };

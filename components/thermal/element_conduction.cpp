@@ -16,8 +16,8 @@ struct alignas(64) Lane {
 };
 
 /// dx_c/dxi_d of each lane.
-void jacobian(const ElementTable& table, const std::array<Vec3, max_linear_nodes>& gradient,
-              const CornerBatch& corners, Lane (&j)[3][3]) {
+void jacobian(const ElementTable& table, const std::array<Vec3, max_linear_nodes>& gradient, const CornerBatch& corners,
+              Lane (&j)[3][3]) {
   for (int c = 0; c < 3; ++c)
     for (int d = 0; d < 3; ++d) {
       Lane sum{};
@@ -68,7 +68,7 @@ void integrate(const ElementTable& table, const CornerBatch& corners, Conduction
 
   Lane j[3][3], cof[3][3], det, factor;
   Lane b[max_linear_nodes][3];  // det times the gradient of N_a in space
-  Lane q_of[3];                  // the flux that it drives
+  Lane q_of[3];                 // the flux that it drives
   for (std::size_t q = 0; q < static_cast<std::size_t>(table.points); ++q) {
     jacobian(table, table.gradient[q], corners, j);
     cofactors(j, cof, det);
