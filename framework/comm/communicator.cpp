@@ -97,6 +97,9 @@ MPI_Comm duplicate_of(MPI_Comm mpi) {
 }  // namespace
 
 MpiEnvironment::MpiEnvironment(int& argc, char**& argv) {
+  // PT-Scotch (under Zoltan's graph partitions) would send messages from threads of its own, which this level of thread
+  // support does not allow: rare crashes.
+  setenv("SCOTCH_PTHREAD_NUMBER", "1", 0);
   int provided = 0;
   MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
   std::set_terminate(abort_all_ranks);
