@@ -32,6 +32,9 @@ struct Partner {
   const std::string& name() const { return mesh ? mesh->source : cloud->source; }
 };
 
+/// Places of all local items: nodes, points, or centres of elements.
+std::vector<Vec3> places_of(const Partner& partner);
+
 /// Points outside, the same on every rank.
 struct Misses {
   GlobalId targets = 0, outside = 0, skipped = 0;

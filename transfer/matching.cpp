@@ -10,6 +10,11 @@
 
 namespace tenon::transfer {
 
+std::vector<Vec3> places_of(const Partner& partner) {
+  if (partner.location == Location::element) return local_points(partner.side());
+  return {partner.coordinates.begin(), partner.coordinates.end()};
+}
+
 namespace {
 
 bool same_bits(std::span<const Vec3> a, std::span<const Vec3> b) {
@@ -19,11 +24,6 @@ bool same_bits(std::span<const Vec3> a, std::span<const Vec3> b) {
 /// Collective. Number of items over all ranks.
 GlobalId global_items(const Partner& partner) {
   return partner.comm().sum(static_cast<std::int64_t>(partner.items().owned.size()));
-}
-
-std::vector<Vec3> places_of(const Partner& partner) {
-  if (partner.location == Location::element) return local_points(partner.side());
-  return {partner.coordinates.begin(), partner.coordinates.end()};
 }
 
 /// Collective. Of all local items, m^3; none of points.

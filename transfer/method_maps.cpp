@@ -11,12 +11,6 @@ namespace tenon::transfer {
 
 namespace {
 
-/// Places of all local items of either side.
-std::vector<Vec3> places_of(const Partner& partner) {
-  if (partner.location == Location::element) return local_points(partner.side());
-  return {partner.coordinates.begin(), partner.coordinates.end()};
-}
-
 /// Places of the owned items.
 std::vector<Vec3> owned_places(const Partner& partner) {
   const std::vector<Vec3> all = places_of(partner);

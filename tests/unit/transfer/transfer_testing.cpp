@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <fstream>
 #include <numbers>
+#include <sstream>
 
 #include "transfer/mesh_items.hpp"
 
@@ -205,6 +207,28 @@ std::uint64_t fingerprint(const Mesh& mesh, Location location, const std::vector
   std::vector<std::uint64_t> shared{hash};
   mesh.comm.broadcast(shared);
   return shared.front();
+}
+
+void expect_bits_of_one_rank(const std::string& file_name, const std::map<std::string, std::uint64_t>& fingerprints) {
+  if (communicator().size() == 1) {
+    std::ofstream file(file_name);
+    for (const auto& [name, hash] : fingerprints) file << hash << ' ' << name << '\n';
+    EXPECT_TRUE(file.good());
+    return;
+  }
+  std::ifstream file(file_name);
+  std::size_t compared = 0;
+  for (std::string line; std::getline(file, line); ++compared) {
+    std::istringstream words(line);
+    std::uint64_t hash = 0;
+    std::string name;
+    words >> hash >> std::ws;
+    std::getline(words, name);
+    const auto found = fingerprints.find(name);
+    ASSERT_NE(found, fingerprints.end()) << name;
+    EXPECT_EQ(found->second, hash) << name;
+  }
+  EXPECT_EQ(compared, fingerprints.size()) << "run this test on one rank first, in the same folder";
 }
 
 double random_number(std::uint64_t seed, std::uint64_t index) {

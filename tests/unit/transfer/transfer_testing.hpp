@@ -5,8 +5,10 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "framework/mesh/generators.hpp"
@@ -62,6 +64,9 @@ double global_sum(const Mesh& mesh, Location location, const std::vector<double>
 double global_least(const Mesh& mesh, const std::vector<double>& values);
 /// Of the bits of all values in global order, the same on every rank; fails the test if a ghost differs from its owner.
 std::uint64_t fingerprint(const Mesh& mesh, Location location, const std::vector<double>& values, int components = 1);
+
+/// On one rank leaves the fingerprints in a file in this folder; on more ranks expects those that one rank has left.
+void expect_bits_of_one_rank(const std::string& file_name, const std::map<std::string, std::uint64_t>& fingerprints);
 
 /// Deterministic number in [0, 1).
 double random_number(std::uint64_t seed, std::uint64_t index);

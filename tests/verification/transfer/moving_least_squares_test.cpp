@@ -6,7 +6,6 @@
 
 #include <bit>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <map>
 #include <memory>
@@ -363,17 +362,7 @@ TEST(MovingLeastSquares, BitsAreThoseOfOneRank) {
         t.fitted.clear();
         mine[name + "-transpose"] = fingerprint(b, t);
       }
-  if (communicator().size() == 1) {
-    std::ofstream file(file_name);
-    for (const auto& [name, hash] : mine) file << name << ' ' << hash << '\n';
-    ASSERT_TRUE(file.good());
-    return;
-  }
-  std::ifstream file(file_name);
-  std::size_t compared = 0;
-  std::string name;
-  for (std::uint64_t hash = 0; file >> name >> hash; ++compared) EXPECT_EQ(mine.at(name), hash) << name;
-  EXPECT_EQ(compared, mine.size()) << "run this test on one rank first, in the same folder";
+  testing::expect_bits_of_one_rank(file_name, mine);
 }
 
 }  // namespace

@@ -5,9 +5,7 @@
 
 #include <bit>
 #include <cmath>
-#include <fstream>
 #include <map>
-#include <sstream>
 
 #include "projection_testing.hpp"
 
@@ -73,25 +71,7 @@ std::map<std::string, std::uint64_t> fingerprints() {
 TEST(ProjectionInvariance, ValuesAndOutcomesAreBitwiseThoseOfOneRank) {
   const std::map<std::string, std::uint64_t> mine = fingerprints();
   ASSERT_EQ(mine.size(), 96u);
-  if (communicator().size() == 1) {
-    std::ofstream file(file_name);
-    for (const auto& [name, hash] : mine) file << hash << ' ' << name << '\n';
-    ASSERT_TRUE(file.good());
-    return;
-  }
-  std::ifstream file(file_name);
-  std::size_t compared = 0;
-  for (std::string line; std::getline(file, line); ++compared) {
-    std::istringstream words(line);
-    std::uint64_t hash = 0;
-    std::string name;
-    words >> hash >> std::ws;
-    std::getline(words, name);
-    const auto found = mine.find(name);
-    ASSERT_NE(found, mine.end()) << name;
-    EXPECT_EQ(found->second, hash) << name;
-  }
-  EXPECT_EQ(compared, mine.size()) << "run this test on one rank first, in the same folder";
+  testing::expect_bits_of_one_rank(file_name, mine);
 }
 
 }  // namespace
