@@ -65,11 +65,15 @@ void add_observers(Simulation& simulation, const OutputPlan& plan, const std::st
   simulation.add(std::make_unique<Progress>(plan.log));
 }
 
-void print_transfers(Simulation& simulation) {
+void print_exchanges(Simulation& simulation) {
   if (!simulation.couplings().empty()) simulation.log().line("");
   for (const auto& coupling : simulation.couplings()) {
     simulation.log().print("transfer {}:", coupling->name());
     for (const std::string& line : coupling->report()) simulation.log().print("  {}", line);
+  }
+  for (const auto& interaction : simulation.interactions()) {
+    simulation.log().print("\n{}:", interaction->name());
+    for (const std::string& line : interaction->report()) simulation.log().print("  {}", line);
   }
 }
 
@@ -133,7 +137,7 @@ ExitCode run_scene(const Communicator& comm, const RunArguments& arguments, cons
   print_warnings(log, built);
   step_to_the_end(simulation, hooks, began);
 
-  print_transfers(simulation);
+  print_exchanges(simulation);
   const double wall = seconds_since(began);
   RunFacts facts{scene.title, scene.path, version_text(), wall, history->greatest_energy_error(), simulation.ending()};
   report_run(simulation, facts, folder + "/summary.json");

@@ -17,6 +17,8 @@
 
 namespace tenon {
 
+class ContactParty;
+
 /// A field that a component shows or gives away: fills an array of all local items (owned and ghost; elements of all
 /// blocks one after the other) x components. Reading a `total` that accumulates takes it: the next read starts from
 /// zero.
@@ -91,6 +93,13 @@ class Component {
   virtual std::string ending() const { return ""; }
   /// Advances by dt <= time_step() to time() + dt. Throws Error(unstable) or Error(geometry) on all ranks together.
   virtual void advance(double dt) = 0;
+
+  /// The two halves of `advance`, for components that interact with others in between: velocities by the component's
+  /// own forces, then places by the velocities, and forces there.
+  virtual void begin_step(double) {}
+  virtual void end_step(double dt) { advance(dt); }
+  /// Local. What contact sees of it; null if it cannot touch anything.
+  virtual ContactParty* contact_party() { return nullptr; }
 
   /// Local. Every field that can be shown or given away, and every one that is accepted.
   virtual std::vector<ExportPort> exports() = 0;

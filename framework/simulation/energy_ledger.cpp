@@ -6,15 +6,26 @@
 
 namespace tenon {
 
+EnergyLedger::EnergyLedger(const Communicator& comm, const std::vector<Component*>& components,
+                           const std::vector<Interaction*>& interactions)
+    : comm_(comm) {
+  for (Component* component : components)
+    accounts_.push_back(
+        {component->name(), [component](std::vector<EnergyTerm>& terms) { component->energies(terms); }});
+  for (Interaction* interaction : interactions)
+    accounts_.push_back(
+        {interaction->name(), [interaction](std::vector<EnergyTerm>& terms) { interaction->energies(terms); }});
+}
+
 std::vector<LedgerRow> EnergyLedger::reduce() {
   std::vector<LedgerRow> rows;
   std::vector<ExactSum> sums;
   std::vector<EnergyTerm> terms;
-  for (Component* component : components_) {
+  for (const Account& account : accounts_) {
     terms.clear();
-    component->energies(terms);
+    account.energies(terms);
     for (const EnergyTerm& term : terms) {
-      rows.push_back({component->name(), term.row, term.role, 0.0});
+      rows.push_back({account.name, term.row, term.role, 0.0});
       sums.push_back(term.local);
     }
   }
@@ -25,28 +36,29 @@ std::vector<LedgerRow> EnergyLedger::reduce() {
 }
 
 void EnergyLedger::start() {
-  accounts_.assign(components_.size(), {});
   const std::vector<LedgerRow> rows = reduce();
-  for (std::size_t c = 0; c < components_.size(); ++c)
+  for (Account& account : accounts_) {
+    account.initial = account.scale = 0;
     for (const LedgerRow& row : rows) {
-      if (row.component != components_[c]->name()) continue;
-      if (row.role == EnergyTerm::Role::stored) accounts_[c].initial += row.value;
-      if (row.role == EnergyTerm::Role::supplied) accounts_[c].initial -= row.value;
+      if (row.component != account.name) continue;
+      if (row.role == EnergyTerm::Role::stored) account.initial += row.value;
+      if (row.role == EnergyTerm::Role::supplied) account.initial -= row.value;
     }
+  }
 }
 
 LedgerSnapshot EnergyLedger::take() {
-  LedgerSnapshot snapshot{reduce(), std::vector<double>(components_.size()), 0};
-  for (std::size_t c = 0; c < components_.size(); ++c) {
-    double residual = -accounts_[c].initial, size = std::abs(accounts_[c].initial);
+  LedgerSnapshot snapshot{reduce(), {}, 0};
+  for (Account& account : accounts_) {
+    double residual = -account.initial, size = std::abs(account.initial);
     for (const LedgerRow& row : snapshot.rows) {
-      if (row.component != components_[c]->name() || row.role == EnergyTerm::Role::memo) continue;
+      if (row.component != account.name || row.role == EnergyTerm::Role::memo) continue;
       residual += row.role == EnergyTerm::Role::stored ? row.value : -row.value;
       size += std::abs(row.value);
     }
-    accounts_[c].scale = std::max(accounts_[c].scale, size);
-    snapshot.residual[c] = residual;
-    if (accounts_[c].scale > 0) snapshot.error = std::max(snapshot.error, std::abs(residual) / accounts_[c].scale);
+    account.scale = std::max(account.scale, size);
+    snapshot.residual.push_back(residual);
+    if (account.scale > 0) snapshot.error = std::max(snapshot.error, std::abs(residual) / account.scale);
   }
   return snapshot;
 }
@@ -54,10 +66,10 @@ LedgerSnapshot EnergyLedger::take() {
 std::vector<std::string> EnergyLedger::columns() {
   std::vector<EnergyTerm> terms;
   std::vector<std::pair<std::string, std::string>> rows;
-  for (Component* component : components_) {
+  for (const Account& account : accounts_) {
     terms.clear();
-    component->energies(terms);
-    for (const EnergyTerm& term : terms) rows.emplace_back(component->name(), term.row);
+    account.energies(terms);
+    for (const EnergyTerm& term : terms) rows.emplace_back(account.name, term.row);
   }
   std::vector<std::string> names;
   for (const auto& [component, row] : rows) {
@@ -68,17 +80,16 @@ std::vector<std::string> EnergyLedger::columns() {
 }
 
 void EnergyLedger::save(CheckpointWriter& file) const {
-  for (std::size_t c = 0; c < components_.size(); ++c) {
-    file.scalar(components_[c]->name() + ".ledger_initial", accounts_[c].initial);
-    file.scalar(components_[c]->name() + ".ledger_scale", accounts_[c].scale);
+  for (const Account& account : accounts_) {
+    file.scalar(account.name + ".ledger_initial", account.initial);
+    file.scalar(account.name + ".ledger_scale", account.scale);
   }
 }
 
 void EnergyLedger::load(const CheckpointReader& file) {
-  accounts_.assign(components_.size(), {});
-  for (std::size_t c = 0; c < components_.size(); ++c) {
-    accounts_[c].initial = file.scalar(components_[c]->name() + ".ledger_initial");
-    accounts_[c].scale = file.scalar(components_[c]->name() + ".ledger_scale");
+  for (Account& account : accounts_) {
+    account.initial = file.scalar(account.name + ".ledger_initial");
+    account.scale = file.scalar(account.name + ".ledger_scale");
   }
 }
 

@@ -2,12 +2,13 @@
 // Where the energy of a run is, row by row, and how exactly the rows close.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "framework/simulation/component.hpp"
+#include "framework/simulation/interaction.hpp"
 
 namespace tenon {
 
@@ -18,19 +19,20 @@ struct LedgerRow {
   double value;
 };
 
-/// The ledger of all components at one time. For every component: sum(stored) - initial = sum(supplied) + residual.
+/// The ledger of all components and interactions at one time. For each of them: sum(stored) - initial = sum(supplied) +
+/// residual.
 struct LedgerSnapshot {
   std::vector<LedgerRow> rows;
-  std::vector<double> residual;  ///< per component, J
-  double error = 0;              ///< greatest |residual| / scale over the components, 1
+  std::vector<double> residual;  ///< per component, then per interaction, J
+  double error = 0;              ///< greatest |residual| / scale over all of them, 1
 };
 
 /// Sums the rows of all components with one exact reduction. The scale of a component is the greatest sum of |rows| so
 /// far.
 class EnergyLedger {
  public:
-  EnergyLedger(const Communicator& comm, std::vector<Component*> components)
-      : comm_(comm), components_(std::move(components)) {}
+  EnergyLedger(const Communicator& comm, const std::vector<Component*>& components,
+               const std::vector<Interaction*>& interactions = {});
 
   /// Collective. Takes the present stored totals as the initial ones.
   void start();
@@ -46,11 +48,12 @@ class EnergyLedger {
 
  private:
   struct Account {
+    std::string name;
+    std::function<void(std::vector<EnergyTerm>&)> energies;
     double initial = 0, scale = 0;
   };
   std::vector<LedgerRow> reduce();
   Communicator comm_;
-  std::vector<Component*> components_;
   std::vector<Account> accounts_;
 };
 

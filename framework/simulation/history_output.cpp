@@ -83,11 +83,15 @@ std::vector<std::string> HistoryOutput::columns(Simulation& simulation) {
   names.push_back("energy_error");
   for (const auto& coupling : simulation.couplings())
     for (const auto& [column, amount] : coupling->amounts()) names.push_back(column);
+  for (const auto& interaction : simulation.interactions())
+    for (const auto& [column, amount] : interaction->amounts()) names.push_back(column);
   for (const auto& component : simulation.components())
     for (const HistoryValue& value : component->history_values()) {
       const bool taken = std::ranges::find(names, value.column) != names.end();
       names.push_back(taken ? component->name() + "." + value.column : value.column);
     }
+  for (const auto& interaction : simulation.interactions())
+    for (const HistoryValue& value : interaction->history_values()) names.push_back(value.column);
   for (std::size_t p = 0; p < probes_.size(); ++p)
     for (const std::string& column : point_columns(options_.points[p].name, probes_[p].port.field.components))
       names.push_back(column);
@@ -129,6 +133,8 @@ void HistoryOutput::add_amounts(Simulation& simulation) {
   std::vector<ExactSum> sums;
   for (const auto& coupling : simulation.couplings())
     for (const auto& [column, amount] : coupling->amounts()) sums.push_back(amount);
+  for (const auto& interaction : simulation.interactions())
+    for (const auto& [column, amount] : interaction->amounts()) sums.push_back(amount);
   std::vector<double> values(sums.size());
   simulation.comm().sum(sums, values);
   row_.insert(row_.end(), values.begin(), values.end());
@@ -139,6 +145,8 @@ void HistoryOutput::add_extrema(Simulation& simulation) {
   std::vector<HistoryValue> all;
   for (const auto& component : simulation.components())
     for (HistoryValue& value : component->history_values()) all.push_back(std::move(value));
+  for (const auto& interaction : simulation.interactions())
+    for (HistoryValue& value : interaction->history_values()) all.push_back(std::move(value));
   std::vector<double> extrema(all.size());
   std::vector<ExactSum> sums(all.size());
   for (std::size_t i = 0; i < all.size(); ++i) {

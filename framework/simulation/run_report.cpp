@@ -66,6 +66,9 @@ Json skips(Simulation& simulation) {
   for (const auto& component : simulation.components())
     for (const SkipCount& skip : component->skips())
       rows.push_back({{"component", component->name()}, {"what", skip.what}, {"times", skip.times}});
+  for (const auto& interaction : simulation.interactions())
+    for (const SkipCount& skip : interaction->skips())
+      rows.push_back({{"component", interaction->name()}, {"what", skip.what}, {"times", skip.times}});
   if (simulation.comm().size() == 1)
     rows.push_back({{"component", "all"}, {"what", "messages (one rank)"}, {"times", simulation.steps()}});
   return rows;
@@ -141,6 +144,10 @@ void report_run(Simulation& simulation, const RunFacts& facts, const std::string
   for (const auto& coupling : simulation.couplings())
     transfers.push_back({{"name", coupling->name()}, {"runs", coupling->runs()}, {"report", coupling->report()}});
   summary["transfers"] = transfers;
+  Json interactions = Json::array();
+  for (const auto& interaction : simulation.interactions())
+    interactions.push_back({{"name", interaction->name()}, {"report", interaction->report()}});
+  summary["interactions"] = interactions;
   summary["skipped"] = skips(simulation);
   summary["phases"] = phases(simulation, facts.wall_seconds);
   summary["exchanges"] = exchanges(comm);

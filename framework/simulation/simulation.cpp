@@ -64,6 +64,11 @@ Coupling& Simulation::add(std::unique_ptr<Coupling> coupling) {
   return *couplings_.emplace_back(std::move(coupling));
 }
 
+Interaction& Simulation::add(std::unique_ptr<Interaction> interaction) {
+  interaction->use_timers(timers_);
+  return *interactions_.emplace_back(std::move(interaction));
+}
+
 Observer& Simulation::add(std::unique_ptr<Observer> observer) {
   return *observers_.emplace_back(std::move(observer));
 }
@@ -77,12 +82,20 @@ Component* Simulation::find(std::string_view name) const {
 void Simulation::initialize(const CheckpointReader* checkpoint) {
   std::vector<Component*> all;
   for (const auto& component : components_) all.push_back(component.get());
-  ledger_ = std::make_unique<EnergyLedger>(comm_, all);
+  std::vector<Interaction*> between;
+  for (const auto& interaction : interactions_) between.push_back(interaction.get());
+  together_.clear();
+  for (Component* component : all) {
+    const Interaction* interaction = interaction_of(*component);
+    together_.push_back(interaction ? interaction->parties() : std::vector<Component*>{component});
+  }
+  ledger_ = std::make_unique<EnergyLedger>(comm_, all, between);
   {
     const ScopedTimer timer(timers_.phase("set-up"));
     for (const auto& component : components_) component->set_clock(start_time_);
     if (checkpoint) load(*checkpoint);
     for (const auto& component : components_) component->initialize();
+    for (const auto& interaction : interactions_) interaction->initialize();
     for (const auto& coupling : couplings_) {
       coupling->use_timer(timers_.phase("transfer: " + coupling->name()));
       coupling->initialize();
@@ -147,15 +160,54 @@ void Simulation::step() {
                     steps_, time_, end_time_));
   choose_leader();
   dt_ = leader_step();
-  prepare_couplings(leader_, time_ + dt_);
-  leader_->advance(dt_);
+  const std::vector<Component*>& leaders = together(*leader_);
+  for (Component* component : leaders) prepare_couplings(component, time_ + dt_);
+  advance(*leader_, time_, dt_);
   time_ = leader_->time();
   ++steps_;
-  run_couplings(leader_, nullptr, CouplingSchedule::source_step);
+  for (Component* component : leaders) run_couplings(component, nullptr, CouplingSchedule::source_step);
   follow();
   const bool asked = stop_ && stop_->asked(comm_, steps_);
   stopped_ = asked && !done();
   for (const auto& observer : observers_) observer->after_step(*this, done() || stopped_);
+}
+
+Interaction* Simulation::interaction_of(const Component& component) const {
+  for (const auto& interaction : interactions_)
+    if (std::ranges::find(interaction->parties(), &component) != interaction->parties().end()) return interaction.get();
+  return nullptr;
+}
+
+const std::vector<Component*>& Simulation::together(const Component& component) const {
+  std::size_t i = 0;
+  while (components_[i].get() != &component) ++i;
+  return together_[i];
+}
+
+/// Of components that step together the first one speaks for all.
+bool Simulation::speaks(const Component& component) const {
+  const Interaction* interaction = interaction_of(component);
+  return !interaction || interaction->parties().front() == &component;
+}
+
+double Simulation::step_of(Component& component) const {
+  const Interaction* interaction = interaction_of(component);
+  if (!interaction) return component.time_step();
+  double least = std::numeric_limits<double>::infinity();
+  for (Component* party : interaction->parties()) least = std::min(least, party->time_step());
+  return least;
+}
+
+void Simulation::advance(Component& component, double time, double dt) {
+  Interaction* interaction = interaction_of(component);
+  if (!interaction) {
+    component.advance(dt);
+    return;
+  }
+  interaction->prepare(time, dt);
+  for (Component* party : interaction->parties()) party->begin_step(dt);
+  interaction->act(time, dt);
+  for (Component* party : interaction->parties()) party->end_step(dt);
 }
 
 // The leader changes only when all clocks agree: a component that lags must not be asked to lead.
@@ -166,7 +218,8 @@ void Simulation::choose_leader() {
   double smallest = std::numeric_limits<double>::infinity();
   leader_ = components_.front().get();
   for (const auto& component : components_) {
-    const double dt = component->time_step();
+    if (!speaks(*component)) continue;
+    const double dt = step_of(*component);
     if (dt < smallest) {
       smallest = dt;
       leader_ = component.get();
@@ -175,9 +228,10 @@ void Simulation::choose_leader() {
 }
 
 double Simulation::leader_step() {
-  double dt = leader_->time_step();
+  double dt = step_of(*leader_);
   for (const auto& component : components_)
-    if (component.get() != leader_) dt = std::min(dt, component->time_step() - (time_ - component->time()));
+    if (component.get() != leader_ && speaks(*component))
+      dt = std::min(dt, step_of(*component) - (time_ - component->time()));
   const double left = end_time_ - time_;
   // A sliver of a step at the very end would only add round-off.
   return dt >= left * (1 - 1e-9) ? left : dt;
@@ -186,21 +240,27 @@ double Simulation::leader_step() {
 bool Simulation::due(Component& follower) {
   const double lag = time_ - follower.time();
   if (!(lag > 0)) return false;
-  return done() || lag + dt_ > follower.time_step() * (1 - 1e-12) || follower.ends_step(time_);
+  return done() || lag + dt_ > step_of(follower) * (1 - 1e-12) || follower.ends_step(time_);
 }
 
 void Simulation::follow() {
+  const std::vector<Component*>& leaders = together(*leader_);
   for (const auto& component : components_) {
-    if (component.get() == leader_ || !due(*component)) continue;
-    run_couplings(leader_, component.get(), CouplingSchedule::slower_step);
-    for (const auto& other : components_)
-      if (other.get() != leader_ && other != component)
-        run_couplings(other.get(), component.get(), CouplingSchedule::slower_step);
-    prepare_couplings(component.get(), time_);
-    component->advance(time_ - component->time());
-    component->set_clock(time_);  // the same bits as the leader's, whatever t + (T - t) rounds to
-    run_couplings(component.get(), nullptr, CouplingSchedule::source_step);
-    run_couplings(component.get(), leader_, CouplingSchedule::slower_step);
+    if (component.get() == leader_ || !speaks(*component) || !due(*component)) continue;
+    const std::vector<Component*>& followers = together(*component);
+    for (Component* follower : followers) {
+      for (Component* leader : leaders) run_couplings(leader, follower, CouplingSchedule::slower_step);
+      for (const auto& other : components_)
+        if (std::ranges::find(leaders, other.get()) == leaders.end() && other.get() != follower)
+          run_couplings(other.get(), follower, CouplingSchedule::slower_step);
+      prepare_couplings(follower, time_);
+    }
+    advance(*component, component->time(), time_ - component->time());
+    for (Component* follower : followers) {
+      follower->set_clock(time_);  // the same bits as the leader's, whatever t + (T - t) rounds to
+      run_couplings(follower, nullptr, CouplingSchedule::source_step);
+      for (Component* leader : leaders) run_couplings(follower, leader, CouplingSchedule::slower_step);
+    }
   }
 }
 
@@ -229,6 +289,7 @@ void Simulation::save(CheckpointWriter& file) {
     file.integer(component->name() + ".mesh", fingerprint(component->mesh()));
     component->save(file);
   }
+  for (const auto& interaction : interactions_) interaction->save(file);
   for (const auto& coupling : couplings_) coupling->save(file);
 }
 
@@ -248,6 +309,7 @@ void Simulation::load(const CheckpointReader& file) {
     component->set_clock(file.scalar(component->name() + ".time"));
     component->load(file);
   }
+  for (const auto& interaction : interactions_) interaction->load(file);
   for (const auto& coupling : couplings_) coupling->load(file);
 }
 

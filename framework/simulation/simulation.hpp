@@ -10,6 +10,7 @@
 
 #include "framework/simulation/coupling.hpp"
 #include "framework/simulation/energy_ledger.hpp"
+#include "framework/simulation/interaction.hpp"
 #include "framework/simulation/stop_request.hpp"
 
 namespace tenon {
@@ -34,6 +35,7 @@ class Observer {
 ///   couple    couplings that run at every step of the leader
 ///   follow    each component that is due: couplings towards it, which prepare its step; its step; couplings from it
 ///   observe   output, log and checkpoint that are due
+/// Components that interact (contact) lead, or follow, together and have one step, the least of theirs.
 /// No component ever advances by more than its limit, and all of them stand at the end time when the run is over.
 class Simulation {
  public:
@@ -42,6 +44,7 @@ class Simulation {
   /// Before `initialize`. References stay valid.
   Component& add(std::unique_ptr<Component> component);
   Coupling& add(std::unique_ptr<Coupling> coupling);
+  Interaction& add(std::unique_ptr<Interaction> interaction);
   Observer& add(std::unique_ptr<Observer> observer);
 
   /// Collective. Prepares everything; `checkpoint` continues an earlier run. Throws Error(usage) if the smallest step
@@ -79,12 +82,18 @@ class Simulation {
   EnergyLedger& ledger() { return *ledger_; }
   const std::vector<std::unique_ptr<Component>>& components() const { return components_; }
   const std::vector<std::unique_ptr<Coupling>>& couplings() const { return couplings_; }
+  const std::vector<std::unique_ptr<Interaction>>& interactions() const { return interactions_; }
   Component* find(std::string_view name) const;
 
   /// Collective. Writes the whole state.
   void save(CheckpointWriter& file);
 
  private:
+  Interaction* interaction_of(const Component& component) const;
+  const std::vector<Component*>& together(const Component& component) const;
+  bool speaks(const Component& component) const;
+  double step_of(Component& component) const;
+  void advance(Component& component, double time, double dt);
   void choose_leader();
   double leader_step();
   void follow();
@@ -103,6 +112,8 @@ class Simulation {
   PhaseTimers timers_;
   std::vector<std::unique_ptr<Component>> components_;
   std::vector<std::unique_ptr<Coupling>> couplings_;
+  std::vector<std::unique_ptr<Interaction>> interactions_;
+  std::vector<std::vector<Component*>> together_;  // of each component: those that step when it does
   std::vector<std::unique_ptr<Observer>> observers_;
   std::unique_ptr<EnergyLedger> ledger_;
   Component* leader_ = nullptr;
