@@ -34,6 +34,7 @@ const std::map<std::string, std::set<std::string>> allowed = [] {
   rooms["framework/scene"] = {"framework/base"};
   below("transfer", "framework/simulation");
   rooms["components/materials"] = {"framework/base", "framework/scene"};
+  rooms["components/contact_geometry"] = {"framework/base"};
   below("components/mechanics", "framework/simulation");
   rooms["components/mechanics"].insert({"components/materials", "framework/scene"});
   rooms["components/thermal"] = rooms["components/mechanics"];
