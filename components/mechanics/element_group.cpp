@@ -17,7 +17,8 @@ ElementGroup::ElementGroup(std::size_t block, const ElementBlock& elements, cons
   for (ElementValues* values :
        {&mass, &temperature, &temperature_used, &plastic_work, &hourglass_energy, &viscosity_energy})
     values->resize(n);
-  if (model().damage() >= 0) dead.resize(n), internal_energy.resize(n);
+  can_die = model().damage() >= 0;
+  if (can_die) dead.resize(n), internal_energy.resize(n);
 }
 
 LocalIndex ElementGroup::node(LocalIndex element, int corner) const {

@@ -120,6 +120,9 @@ class ElementGroup {
 
   /// Part of a rigid body: never advanced, and its mass is the body's.
   bool rigid = false;
+  /// Elements of this group may fail and be taken out; how many have been, since the group was made.
+  bool can_die = false;
+  std::int64_t deaths = 0;
   MaterialPoints points;
   ElementValues mass;                                ///< kg
   ElementValues temperature;                         ///< K

@@ -196,6 +196,7 @@ void Hex8Group<H>::bury(std::size_t b, double (*rows)[8][pack_width], Batch<1>& 
   points.failed(b, failed);
   for (int l = 0; l < lanes; ++l) {
     if (failed[0][l] == 0) continue;
+    if (dead[b][0][l] == 0) ++deaths;
     dead[b][0][l] = 1;
     for (int i = 0; i < 6; ++i) points.stress(b, 0)[i][l] = 0;
     if constexpr (H::state_size > 0)

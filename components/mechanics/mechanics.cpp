@@ -36,6 +36,28 @@ void Mechanics::initialize() {
 }
 
 void Mechanics::advance(double dt) {
+  begin_step(dt);
+  end_step(dt);
+}
+
+void Mechanics::begin_step(double dt) {
+  if (!subcycling_) kick(0, time(), dt);
+}
+
+void Mechanics::end_step(double dt) {
+  if (subcycling_) {
+    take_short_steps(dt);
+    return;
+  }
+  forget_steps();
+  finish_kick(time(), dt);
+  refresh_ghosts();
+  drift(0, dt);
+  compute_forces(1, dt);
+  finish_step(dt);
+}
+
+void Mechanics::take_short_steps(double dt) {
   const int steps = short_steps();
   const double h = dt / steps;
   for (int step = 0; step < steps; ++step) {
@@ -43,11 +65,26 @@ void Mechanics::advance(double dt) {
     take_step(step, time() + step * h, h);
     if (step + 1 < steps) stop_if_bad();
   }
+  finish_step(dt);
+}
+
+void Mechanics::finish_step(double dt) {
   set_time(time() + dt);
   started_ = true;
   ++steps_;
   choose_step();
   if (subcycling_ && levels_are_due()) choose_levels();
+}
+
+ContactParty* Mechanics::contact_party() {
+  if (options_.time_step.subcycling > 1)
+    throw Error(ExitCode::usage, name() +
+                                     ": contact needs all of its nodes in each step, and elements with longer steps of "
+                                     "their own have none; use time_step.subcycling: 1");
+  if (!contact_)
+    contact_ = std::make_unique<ContactSide>(
+        ContactSide::Parts{*mesh_, options_, groups_, nodes_, conditions_, *rigid_, *ties_});
+  return contact_.get();
 }
 
 // Between the steps of the longest: as choose_step does after them.
@@ -59,6 +96,7 @@ void Mechanics::stop_if_bad() {
 
 void Mechanics::take_step(int step, double now, double dt) {
   kick(step, now, dt);
+  finish_kick(now, dt);
   refresh_ghosts();
   drift(step, dt);
   compute_forces(step + 1, dt);
@@ -79,11 +117,12 @@ void kick_vectors(std::span<Vec3> velocity, std::span<const ForceRow> force, std
 void Mechanics::kick(int step, double now, double dt) {
   const ScopedTimer timer(*phases_.update);
   if (relaxation_ && relaxation_->begin(nodes_)) previous_dt_ = 0;
-  const double kick = 0.5 * (previous_dt_ + dt);
+  const double kick = kick_length(dt);
   if (!former_force_.empty()) blend_forces(dt);
   if (!loads_->empty()) loads_->apply(nodes_, groups_, now, kick);
   if (!rigid_->empty()) set_rigid_rates();
   if (!loads_->empty()) loads_->remember(nodes_);
+  if (contact_) contact_->begin(kick);
   if (!ties_->empty()) ties_->gather(nodes_);
   if (!rigid_->empty()) rigid_->kick(nodes_, now, kick, dt);
   if (subcycling_) {
@@ -94,11 +133,17 @@ void Mechanics::kick(int step, double now, double dt) {
       kick_vectors(nodes_.spin(), nodes_.moment, nodes_.inverse_inertia, kick, nodes_.internal_work);
   }
   conditions_.apply(nodes_, now, kick, dt);
-  if (!rigid_->empty())
-    set_rigid_rates();
-  else if (!ties_->empty())
-    ties_->follow(nodes_);
+  set_bound_rates();
+}
+
+// What follows from the final velocities. The books of the kick are closed with them, and what moves on its own path
+// does so.
+void Mechanics::finish_kick(double now, double dt) {
+  const ScopedTimer timer(*phases_.update);
+  const double kick = kick_length(dt);
+  if (contact_ && !ties_->empty()) ties_->follow(nodes_);
   if (!loads_->empty()) loads_->book(nodes_, kick);
+  if (!rigid_->empty()) rigid_->book(nodes_, kick);
   if (relaxation_) relaxation_->watch(nodes_, *loads_, kick, previous_dt_, dt, now);
   if (rigid_->empty()) return;
   rigid_->move(nodes_, dt);
@@ -115,6 +160,14 @@ void Mechanics::blend_forces(double dt) {
   };
   blend(former_force_, nodes_.force);
   blend(former_moment_, nodes_.moment);
+}
+
+// Of nodes that have no velocity of their own.
+void Mechanics::set_bound_rates() {
+  if (!rigid_->empty())
+    set_rigid_rates();
+  else if (!ties_->empty())
+    ties_->follow(nodes_);
 }
 
 // Ghosts keep the velocities that they came with: no force may look at them from here on.
@@ -208,8 +261,11 @@ void Mechanics::exchange_nodal_values(ElementGroup& group) {
 void Mechanics::choose_step() {
   const ScopedTimer timer(*phases_.reduce);
   last_good_ = limit_;
-  std::array<double, 3> least{local_least_.step, local_least_.shrink, local_shortest_};
+  const std::int64_t deaths = local_deaths();
+  std::array<double, 4> least{local_least_.step, local_least_.shrink, local_shortest_, deaths > deaths_ ? 0.0 : 1.0};
+  deaths_ = deaths;
   mesh_->comm.min(std::span<double>(least));
+  if (contact_ && least[3] == 0) contact_->change_surface();
   estimate_ = least[0], shortest_ = least[2];
   if (estimate_ < 0) fail(estimate_);
   if (first_estimate_ == 0) first_estimate_ = estimate_;
@@ -218,6 +274,12 @@ void Mechanics::choose_step() {
   if (assembled_ && search_is_due()) search_step();
   stable_step_ = short_steps() * short_step(limit_);
   warn_of_instability();
+}
+
+std::int64_t Mechanics::local_deaths() const {
+  std::int64_t sum = 0;
+  for (const auto& group : groups_) sum += group->deaths;
+  return sum;
 }
 
 // What the user wants of what elements that allow `limit` allow together with everything else, s.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "components/mechanics/assembled_step.hpp"
+#include "components/mechanics/contact_side.hpp"
 #include "components/mechanics/element_groups.hpp"
 #include "components/mechanics/kinetic_relaxation.hpp"
 #include "components/mechanics/loads.hpp"
@@ -46,6 +47,10 @@ class Mechanics final : public Component {
   std::string ending() const override { return relaxation_ ? relaxation_->report() : ""; }
   StepLimiter limiter() override;
   void advance(double dt) override;
+  void begin_step(double dt) override;
+  void end_step(double dt) override;
+  /// Made by the first call. Throws Error(usage) with subcycling.
+  ContactParty* contact_party() override;
 
   std::vector<ExportPort> exports() override;
   std::vector<ImportPort> imports() override;
@@ -90,7 +95,13 @@ class Mechanics final : public Component {
   void stop_if_bad();
   void blend_forces(double dt);
   void kick(int step, double now, double dt);
+  void finish_kick(double now, double dt);
+  void finish_step(double dt);
+  void take_short_steps(double dt);
+  double kick_length(double dt) const { return 0.5 * (previous_dt_ + dt); }
+  std::int64_t local_deaths() const;
   void set_rigid_rates();
+  void set_bound_rates();
   void refresh_ghosts();
   void drift(int step, double dt);
   void forget_steps();
@@ -124,6 +135,7 @@ class Mechanics final : public Component {
   ExportPort element_port(std::string field, int components, std::string unit, Value value);
   void take_temperature(std::span<const double> values);
   void give_heat(std::span<double> values);
+  void add_contact_ports(std::vector<ExportPort>& ports);
   static double heat(const ElementGroup& group, LocalIndex element);
 
   std::shared_ptr<const Mesh> mesh_;
@@ -140,6 +152,8 @@ class Mechanics final : public Component {
   std::unique_ptr<RigidBodies> rigid_;
   std::unique_ptr<Ties> ties_;
   AddedMass added_mass_;
+  std::unique_ptr<ContactSide> contact_;  // if asked for
+  std::int64_t deaths_ = 0;               // of elements of this rank, as of the last step
 
   double previous_dt_ = 0;  // of the last half step
   double stable_step_ = 0;  // what time_step() says

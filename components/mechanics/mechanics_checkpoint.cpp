@@ -83,6 +83,16 @@ void Mechanics::save(CheckpointWriter& file) {
   }
   for (const Loads::Row& row : loads_->rows())
     node_array(row.name, 1, [&](std::size_t n, std::size_t) { return row.work[n]; });
+  if (contact_) {
+    node_array("contact_work", 1, [&](std::size_t n, std::size_t) { return contact_->node_work()[n]; });
+    file.scalar(key("contact_body_work"), contact_->body_work());
+    ContactFields* fields = contact_->fields();
+    file.integer(key("contact_fields"), fields ? 1 : 0);
+    if (fields) {
+      node_array("contact_slip", 3, [&](std::size_t n, std::size_t c) { return fields->slip[n][c]; });
+      node_array("friction_heat", 1, [&](std::size_t n, std::size_t) { return fields->friction_heat[n]; });
+    }
+  }
   if (subcycling_) save_levels(file);
   for (std::size_t b = 0; b < mesh_->blocks.size(); ++b) {
     const ElementBlock& block = mesh_->blocks[b];
@@ -142,6 +152,17 @@ void Mechanics::load(const CheckpointReader& file) {
   }
   for (Loads::Row& row : loads_->rows())
     node_array(row.name, 1, [&](std::size_t n, std::size_t) -> double& { return row.work[n]; });
+  // A run that goes on without contact keeps the work of that before; one that begins with it starts from none.
+  if (file.has(key("contact_body_work")) && options_.time_step.subcycling == 1) {
+    contact_party();
+    node_array("contact_work", 1, [&](std::size_t n, std::size_t) -> double& { return contact_->node_work()[n]; });
+    contact_->body_work() = file.scalar(key("contact_body_work"));
+    if (file.integer(key("contact_fields")) != 0) {
+      ContactFields& fields = contact_->contact_fields();
+      node_array("contact_slip", 3, [&](std::size_t n, std::size_t c) -> double& { return fields.slip[n][c]; });
+      node_array("friction_heat", 1, [&](std::size_t n, std::size_t) -> double& { return fields.friction_heat[n]; });
+    }
+  }
   const std::int64_t subcycling = file.has(key("subcycling")) ? file.integer(key("subcycling")) : 1;
   if (subcycling > 1 && subcycling != options_.time_step.subcycling)
     throw Error(ExitCode::usage, fmt::format("{}: the checkpoint was written with time_step.subcycling: {}; continue "
@@ -273,6 +294,7 @@ std::int64_t Mechanics::memory() const {
       conditions_.memory() + loads_->memory() + static_cast<std::int64_t>(nodes_.size() * (6 + 3 + 4) * sizeof(double));
   if (nodes_.has_rotations()) bytes += static_cast<std::int64_t>(nodes_.size() * (3 + 2 + 4) * sizeof(double));
   for (const auto& group : groups_) bytes += group->memory();
+  if (contact_) bytes += contact_->memory();
   if (subcycling_) bytes += subcycling_->memory();
   return bytes;
 }

@@ -57,6 +57,7 @@ void Mechanics::energies(std::vector<EnergyTerm>& terms) {
     EnergyTerm& term = terms.emplace_back(EnergyTerm{"rigid_body_work", Role::supplied, {}});
     if (mesh_->comm.rank() == 0) term.local.add(rigid_->work());
   }
+  if (contact_) terms.push_back({"contact_work", Role::supplied, contact_->contact_work()});
   if (relaxation_) {
     EnergyTerm& term = terms.emplace_back(EnergyTerm{"relaxation_energy", Role::stored, {}});
     for (const LocalIndex n : mesh_->owned_nodes) term.local.add(relaxation_->taken()[static_cast<std::size_t>(n)]);

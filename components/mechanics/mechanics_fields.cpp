@@ -80,7 +80,33 @@ std::vector<ExportPort> Mechanics::exports() {
   if (options_.heat == HeatMode::exported)
     ports.push_back({{"plastic_heat", Location::element, FieldKind::total, 1, "J"},
                      [this](std::span<double> out) { give_heat(out); }});
+  if (contact_ && contact_->fields()) add_contact_ports(ports);
   return ports;
+}
+
+// Contact fills owned nodes; ghosts are refreshed when a field is read.
+void Mechanics::add_contact_ports(std::vector<ExportPort>& ports) {
+  ContactFields& fields = *contact_->fields();
+  const auto vector = [&](std::string field, std::string unit, std::vector<Vec3>& values) {
+    ports.push_back({node_vector(std::move(field), std::move(unit)), [this, &values](std::span<double> out) {
+                       for (std::size_t n = 0; n < values.size(); ++n) std::ranges::copy(values[n], &out[3 * n]);
+                       mesh_->node_halo.forward<double>(out, out, 3);
+                     }});
+  };
+  const auto scalar = [&](std::string field, FieldKind kind, std::string unit, std::vector<double>& values) {
+    ports.push_back(
+        {{std::move(field), Location::node, kind, 1, std::move(unit)}, [this, &values, kind](std::span<double> out) {
+           std::ranges::copy(values, out.begin());
+           mesh_->node_halo.forward<double>(out, out);
+           if (kind == FieldKind::total) std::ranges::fill(values, 0.0);
+         }});
+  };
+  vector("contact_force", "N", fields.force);
+  vector("contact_slip", "m", fields.slip);
+  scalar("gap", FieldKind::point_value, "m", fields.gap);
+  scalar("contact_status", FieldKind::point_value, "1", fields.status);
+  scalar("contact_pressure", FieldKind::point_value, "Pa", fields.pressure);
+  scalar("friction_heat", FieldKind::total, "J", fields.friction_heat);
 }
 
 std::vector<ImportPort> Mechanics::imports() {

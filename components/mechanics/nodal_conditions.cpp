@@ -308,7 +308,7 @@ void NodalConditions::enforce(Constrained& entry, NodalState& nodes, double kick
   for (int k = 0; k < 3; ++k) v = v + along[k] * entry.row[k].direction;
 }
 
-void NodalConditions::enforce(const Standing& entry, NodalState& nodes, double kick, double dt) {
+void NodalConditions::enforce(const Standing& entry, NodalState& nodes, double kick, double dt, Stop* stop) {
   const auto n = static_cast<std::size_t>(entry.node);
   Vec3 held[3];
   int holds = -1;  // not yet looked up: most nodes are far from every wall
@@ -333,6 +333,7 @@ void NodalConditions::enforce(const Standing& entry, NodalState& nodes, double k
     const double other = dot(normal, v) - size * dot(direction, v);
     wall_work_[n] += replace_component(nodes, n, direction, (least - other) / size, kick);
     held[holds++] = direction;
+    if (stop) stop->direction[stop->count++] = direction;
   }
 }
 
@@ -341,8 +342,45 @@ void NodalConditions::apply(NodalState& nodes, double time, double kick, double 
   for (std::size_t w = 0; w < walls_.size(); ++w)
     wall_distance_[w] = dot(walls_[w].normal, walls_[w].point) + walls_[w].motion(time + dt);
   for (Constrained& entry : constrained_) enforce(entry, nodes, kick, dt);
-  for (const Standing& entry : standing_) enforce(entry, nodes, kick, dt);
+  for (Stop& stop : stops_) stop.count = 0;
+  for (std::size_t i = 0; i < standing_.size(); ++i)
+    enforce(standing_[i], nodes, kick, dt, stops_.empty() ? nullptr : &stops_[i]);
   if (nodes.has_rotations() && !rotations_.empty()) rotations_.apply(nodes, time, kick, dt, boundary_work_);
+}
+
+void NodalConditions::remember_holds(std::size_t size) {
+  constrained_of_.assign(size, -1), standing_of_.assign(size, -1);
+  for (std::size_t i = 0; i < constrained_.size(); ++i)
+    constrained_of_[static_cast<std::size_t>(constrained_[i].node)] = static_cast<std::int32_t>(i);
+  for (std::size_t i = 0; i < standing_.size(); ++i)
+    standing_of_[static_cast<std::size_t>(standing_[i].node)] = static_cast<std::int32_t>(i);
+  stops_.resize(standing_.size());
+}
+
+NodalConditions::Holds NodalConditions::holds(LocalIndex node) const {
+  Holds holds;
+  const auto n = static_cast<std::size_t>(node);
+  const auto add = [&](const Vec3& direction, bool wall) {
+    holds.direction[holds.count] = direction, holds.wall[holds.count++] = wall;
+  };
+  if (constrained_of_[n] >= 0) {
+    const Constrained& entry = constrained_[static_cast<std::size_t>(constrained_of_[n])];
+    for (int k = 0; k < entry.rows; ++k)
+      add(entry.row[k].direction, motions_[static_cast<std::size_t>(entry.row[k].motion)].kind == Kind::wall);
+  }
+  if (standing_of_[n] >= 0) {
+    const Stop& stop = stops_[static_cast<std::size_t>(standing_of_[n])];
+    for (int k = 0; k < stop.count; ++k) add(stop.direction[k], true);
+  }
+  return holds;
+}
+
+void NodalConditions::react(LocalIndex node, const Vec3& p, const Vec3& mean) {
+  const Holds held = holds(node);
+  for (int k = 0; k < held.count; ++k) {
+    const Vec3& d = held.direction[k];
+    (held.wall[k] ? wall_work_ : boundary_work_)[static_cast<std::size_t>(node)] -= dot(p, d) * dot(d, mean);
+  }
 }
 
 std::vector<LocalIndex> NodalConditions::nodes() const {
@@ -354,9 +392,10 @@ std::vector<LocalIndex> NodalConditions::nodes() const {
 }
 
 std::int64_t NodalConditions::memory() const {
-  return static_cast<std::int64_t>(constrained_.size() * sizeof(Constrained) + standing_.size() * sizeof(Standing) +
-                                   (boundary_work_.size() + wall_work_.size()) * sizeof(double) +
-                                   standing_walls_.size() * sizeof(std::int32_t)) +
+  return static_cast<std::int64_t>(
+             constrained_.size() * sizeof(Constrained) + standing_.size() * sizeof(Standing) +
+             (boundary_work_.size() + wall_work_.size()) * sizeof(double) + stops_.size() * sizeof(Stop) +
+             (standing_walls_.size() + constrained_of_.size() + standing_of_.size()) * sizeof(std::int32_t)) +
          rotations_.memory();
 }
 

@@ -39,6 +39,21 @@ class NodalConditions {
   /// J since the start, of all local nodes (zero on ghosts); empty where the scene has no motions or walls.
   std::vector<double>& boundary_work() { return boundary_work_; }
   std::vector<double>& wall_work() { return wall_work_; }
+
+  /// Orthonormal directions along which a node has no velocity of its own in this step; `wall`: whose reaction it is.
+  struct Holds {
+    int count = 0;
+    Vec3 direction[3];
+    bool wall[3];
+  };
+  /// Local. From now on `apply` remembers which walls have stopped a node. For `size` local nodes.
+  void remember_holds(std::size_t size);
+  /// Local, after `remember_holds`; of owned nodes.
+  Holds holds(LocalIndex node) const;
+  /// Local. An impulse p (N s) has come to a node whose velocity, on the mean of before and after the kick, is `mean`
+  /// (m/s): books the work of the reactions that take up its share along held directions.
+  void react(LocalIndex node, const Vec3& p, const Vec3& mean);
+
   /// Local nodes that any of them acts on, some more than once.
   std::vector<LocalIndex> nodes() const;
   std::int64_t memory() const;
@@ -60,6 +75,11 @@ class NodalConditions {
     std::int32_t constrained;        // or -1
     std::int32_t first_wall, walls;  // in standing_walls_
   };
+  /// Directions along which walls have stopped a node in this step.
+  struct Stop {
+    int count = 0;
+    Vec3 direction[3];
+  };
   /// A motion at one time: u = b + a (X - c), a velocity b, or an acceleration b.
   struct Prepared {
     enum class Form { place, velocity, acceleration } form;
@@ -73,7 +93,7 @@ class NodalConditions {
   Prepared prepare(const PrescribedMotion& motion, double time, double dt) const;
   double target(const Row& row, const NodalState& nodes, std::size_t n, double kick, double dt) const;
   void enforce(Constrained& entry, NodalState& nodes, double kick, double dt);
-  void enforce(const Standing& entry, NodalState& nodes, double kick, double dt);
+  void enforce(const Standing& entry, NodalState& nodes, double kick, double dt, Stop* stop);
 
   const Mesh& mesh_;
   std::vector<PrescribedMotion> motions_;
@@ -86,6 +106,9 @@ class NodalConditions {
   std::vector<Standing> standing_;
   std::vector<std::int32_t> standing_walls_;
   std::vector<double> boundary_work_, wall_work_;
+  // Only where contact asks for them.
+  std::vector<std::int32_t> constrained_of_, standing_of_;  // of each local node, or -1
+  std::vector<Stop> stops_;                                 // as standing_: by walls in this step
 };
 
 }  // namespace tenon

@@ -62,29 +62,36 @@ void RigidBodies::kick(NodalState& nodes, double time, double kick, double dt) {
     const Vec3 f{-nodes.force[n].v[0], -nodes.force[n].v[1], -nodes.force[n].v[2]};
     const Vec3 moment = cross(nodes.position()[n] - bodies_[b].state.pivot, f);
     rates_before_[i] = velocity_at(bodies_[b], nodes.position()[n]);
+    force_[i] = nodes.force[n];
     for (std::size_t c = 0; c < 3; ++c) {
       sums_[6 * b + c].add(f[c]), sums_[6 * b + 3 + c].add(moment[c]);
       if (nodes.has_rotations()) sums_[6 * b + 3 + c].add(-nodes.moment[n].v[c]);
     }
+    nodes.force[n] = {};
+    if (!nodes.has_rotations()) continue;
+    moment_[i] = nodes.moment[n];
+    nodes.moment[n] = {};
   }
   mesh_.comm.sum(sums_, totals_);
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const double* t = totals_.data() + 6 * b;
-    bodies_[b].spin_before = spin(bodies_[b]);
+    bodies_[b].velocity_before = bodies_[b].state.velocity, bodies_[b].spin_before = spin(bodies_[b]);
+    bodies_[b].lost = bodies_[b].lost_spin = {}, bodies_[b].pushed = {};
     kick_body(bodies_[b], {t[0], t[1], t[2]}, {t[3], t[4], t[5]}, time, kick, dt);
   }
+}
+
+void RigidBodies::book(NodalState& nodes, double kick) const {
   for (std::size_t i = 0; i < held_.size(); ++i) {
     const auto n = static_cast<std::size_t>(held_[i].node);
     const Body& body = bodies_[static_cast<std::size_t>(held_[i].body)];
     const Vec3 sum = rates_before_[i] + velocity_at(body, nodes.position()[n]);
-    const double* f = nodes.force[n].v;
+    const double* f = force_[i].v;
     nodes.internal_work[n] += 0.5 * kick * (f[0] * sum[0] + f[1] * sum[1] + f[2] * sum[2]);
-    nodes.force[n] = {};
     if (!nodes.has_rotations()) continue;
     const Vec3 turn = body.spin_before + spin(body);
-    const double* m = nodes.moment[n].v;
+    const double* m = moment_[i].v;
     nodes.internal_work[n] += 0.5 * kick * (m[0] * turn[0] + m[1] * turn[1] + m[2] * turn[2]);
-    nodes.moment[n] = {};
   }
 }
 
@@ -109,7 +116,7 @@ void RigidBodies::push(Body& body, const Vec3& force, double time, double kick, 
     else
       v = (2 * before + impulse / mass) / (1 + c) - before;
     const double mean = 0.5 * (before + v), lost = 2 * c * mass * mean;  // kg m/s
-    body.damped += lost * mean;
+    body.damped += lost * mean, body.lost[i] = lost;
     if (given) body.work += (mass * (v - before) - impulse + lost) * mean;
   }
 }
@@ -124,6 +131,7 @@ void RigidBodies::turn(Body& body, const Vec3& moment, double time, double kick,
     }
     const Vec3 before = momentum, rate = spin(body);
     momentum = (1 / (1 + c)) * (2.0 * before + kick * moment) - before;
+    body.lost_spin = c * (before + momentum);
     body.damped += 2 * c * dot(0.5 * (before + momentum), 0.5 * (rate + spin(body)));
   }
   if (!has_axis(body.options)) return;
@@ -136,7 +144,7 @@ void RigidBodies::turn(Body& body, const Vec3& moment, double time, double kick,
   else
     body.rate = (2 * before + impulse / body.axial_inertia) / (1 + c) - before;
   const double mean = 0.5 * (before + body.rate), lost = 2 * c * body.axial_inertia * mean;
-  body.damped += lost * mean;
+  body.damped += lost * mean, body.lost_spin = lost * body.options.axis;
   if (prescribed) body.work += (body.axial_inertia * (body.rate - before) - impulse + lost) * mean;
 }
 
@@ -155,6 +163,54 @@ void RigidBodies::move(NodalState& nodes, double dt) {
     const Vec3 place = body.state.pivot + rotate(body.state.orientation, mesh_.coordinates[n] - body.reference_pivot);
     nodes.velocity()[n] = (1 / dt) * (place - nodes.position()[n]);
   }
+}
+
+std::vector<ContactRigidBody> RigidBodies::contact_bodies() const {
+  std::vector<ContactRigidBody> result;
+  for (const Body& body : bodies_) {
+    ContactRigidBody& b = result.emplace_back();
+    b.pivot = body.state.pivot;
+    b.velocity = body.state.velocity, b.spin = spin(body);
+    b.former_velocity = body.velocity_before, b.former_spin = body.spin_before;
+    for (std::size_t i = 0; i < 3; ++i)
+      b.inverse_mass[i] = body.options.joint || body.options.prescribed_velocity[i] ? 0 : 1 / body.inertia.mass;
+    for (std::size_t j = 0; j < 3; ++j) {
+      Vec3 unit{}, column{};
+      unit[j] = 1;
+      const Quaternion& q = body.state.orientation;
+      const Vec3& axis = body.options.axis;
+      if (body.options.rotation == Rotation::free)
+        column = rotate(q, times(body.inertia.inverse, rotate_back(q, unit)));
+      if (body.options.rotation == Rotation::hinge) column = (axis[j] / body.axial_inertia) * axis;
+      for (std::size_t i = 0; i < 3; ++i) b.inverse_inertia[3 * i + j] = column[i];
+    }
+  }
+  return result;
+}
+
+// What is prescribed stays as it is: there the reaction takes up the impulse.
+double RigidBodies::push(std::span<const BodyImpulse> impulses) {
+  double work = 0;
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    Body& body = bodies_[b];
+    const BodyImpulse& p = impulses[b];
+    const Vec3 velocity = body.state.velocity, turn = spin(body);
+    for (std::size_t i = 0; i < 3; ++i)
+      if (!body.options.joint && !body.options.prescribed_velocity[i])
+        body.state.velocity[i] += p.linear[i] / body.inertia.mass;
+    if (body.options.rotation == Rotation::free) body.state.momentum = body.state.momentum + p.angular;
+    if (body.options.rotation == Rotation::hinge) body.rate += dot(p.angular, body.options.axis) / body.axial_inertia;
+    const Vec3 dv = body.state.velocity - velocity, dw = spin(body) - turn;
+    const Vec3 mean = 0.5 * (body.velocity_before + body.state.velocity), rate = 0.5 * (body.spin_before + spin(body));
+    work += dot(p.linear, mean) + dot(p.angular, rate);
+    work += 0.5 * (dot(body.pushed.linear, dv) + dot(body.pushed.angular, dw));
+    body.damped += 0.5 * (dot(body.lost, dv) + dot(body.lost_spin, dw));
+    for (std::size_t i = 0; i < 3; ++i)
+      if (body.options.prescribed_velocity[i]) body.work -= p.linear[i] * mean[i];
+    if (body.options.rotation == Rotation::prescribed) body.work -= dot(p.angular, rate);
+    body.pushed = {body.pushed.linear + p.linear, body.pushed.angular + p.angular};
+  }
+  return work;
 }
 
 double RigidBodies::kinetic_energy() const {

@@ -6,6 +6,7 @@
 #include "components/mechanics/load_options.hpp"
 #include "components/mechanics/rigid_motion.hpp"
 #include "framework/io/checkpoint.hpp"
+#include "framework/simulation/contact_party.hpp"
 
 namespace tenon {
 
@@ -38,10 +39,19 @@ class RigidBodies {
   void start(NodalState& nodes, double time);
   /// Local. Gives the nodes the rigid velocities of before the kick, or after it.
   void set_rates(NodalState& nodes) const;
-  /// Collective. New velocities by the nodal forces, which are taken out of the state; books their work.
+  /// Collective. New velocities by the nodal forces, which are taken out of the state.
   void kick(NodalState& nodes, double time, double kick, double dt);
+  /// Local. Books the work of these forces, once velocities are final.
+  void book(NodalState& nodes, double kick) const;
   /// Local. Moves the bodies by dt and gives the nodes the velocities that bring them along.
   void move(NodalState& nodes, double dt);
+
+  std::int32_t body_of(LocalIndex node) const { return body_of_[static_cast<std::size_t>(node)]; }
+  /// Local, between `kick` and `move`.
+  std::vector<ContactRigidBody> contact_bodies() const;
+  /// Local. Impulses of others, one per body, the same on every rank; changes velocities and spins at once. Returns
+  /// their work, J.
+  double push(std::span<const BodyImpulse> impulses);
 
   /// J, the same on every rank.
   double kinetic_energy() const;
@@ -68,7 +78,10 @@ class RigidBodies {
     double rate = 0;           ///< about the axis, rad/s
     double work = 0;           ///< of prescribed motion, J
     double damped = 0;         ///< by damping, J
-    Vec3 spin_before{};        ///< before the kick, rad/s
+    // In a step.
+    Vec3 velocity_before{}, spin_before{};  ///< before the kick, m/s, rad/s
+    Vec3 lost{}, lost_spin{};               ///< momenta taken by damping: N s, N m s
+    BodyImpulse pushed;                     ///< by others, so far
   };
   struct Held {
     LocalIndex node;
@@ -93,7 +106,9 @@ class RigidBodies {
   std::vector<Held> held_;             // owned nodes, ascending
   std::vector<ExactSum> sums_;         // six per body
   std::vector<double> totals_;
-  std::vector<Vec3> rates_before_;  // as held_
+  // As held_: velocities before the kick, and the forces of it.
+  std::vector<Vec3> rates_before_;
+  std::vector<ForceRow> force_, moment_;
 };
 
 }  // namespace tenon

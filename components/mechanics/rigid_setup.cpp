@@ -34,7 +34,8 @@ RigidBodies::RigidBodies(const Mesh& mesh, const std::vector<RigidBody>& bodies,
       sums_(6 * bodies.size()),
       totals_(6 * bodies.size()) {
   for (const RigidBody& options : bodies) {
-    Body body{options, {}, {}, {}};
+    Body body;
+    body.options = options;
     body.options.axis = (1 / norm(options.axis)) * options.axis;
     bodies_.push_back(std::move(body));
   }
@@ -46,7 +47,8 @@ RigidBodies::RigidBodies(const Mesh& mesh, const std::vector<RigidBody>& bodies,
     nodes.mass[n] = nodes.inverse_mass[n] = 0;
     if (nodes.has_rotations()) nodes.inertia[n] = nodes.inverse_inertia[n] = 0;
   }
-  rates_before_.resize(held_.size());
+  rates_before_.resize(held_.size()), force_.resize(held_.size());
+  if (nodes.has_rotations()) moment_.resize(held_.size());
 }
 
 void RigidBodies::find_nodes(const ElementGroups& groups) {

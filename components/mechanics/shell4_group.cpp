@@ -450,6 +450,7 @@ void ShellGroup<S>::bury(std::size_t b, Rows force, Rows moment, Batch<1>& step)
     int failed = 0;
     for (int p = 0; p < points.points(); ++p) failed += points.history(b, p)[model().damage()][0][l] >= 1 ? 1 : 0;
     if (2 * failed < points.points()) continue;
+    if (dead[b][0][l] == 0) ++deaths;
     dead[b][0][l] = 1;
     for (int p = 0; p < points.points(); ++p)
       for (int i = 0; i < 6; ++i) points.stress(b, p)[i][l] = 0;

@@ -158,7 +158,7 @@ void SolidGroup<N, P>::bury(std::size_t b, const Work& work, const Batch<1>* sha
   for (int l = 0; l < lanes && averaged_; ++l)
     if (dead[b][0][l] == 0) internal_energy[b][0][l] += 0.5 * mean_[b][0][l] * expansion_[b][0][l];
   for (int l = 0; l < lanes; ++l)
-    if (failed[0][l] != 0) dead[b][0][l] = 1;
+    if (failed[0][l] != 0 && dead[b][0][l] == 0) dead[b][0][l] = 1, ++deaths;
 }
 
 // omega^2 <= N/m (kappa V |mean gradient|^2 + 2 mu sum over points of their share of the greatest eigenvalue of G):

@@ -203,7 +203,10 @@ inline std::vector<double> in_global_order(Mechanics& body, const std::string& n
   const std::vector<double> values = field(body, name);
   std::vector<GlobalId> ids, owned;
   std::vector<int> owners;
-  const bool nodal = name == "displacement" || name == "velocity";
+  const auto ports = body.exports();
+  const auto port = std::ranges::find(ports, name, [](const ExportPort& p) { return p.field.name; });
+  if (port == ports.end()) return {};
+  const bool nodal = port->field.location == Location::node;
   if (nodal) {
     ids = mesh.node_ids, owners = mesh.node_owners;
   } else {
@@ -212,7 +215,7 @@ inline std::vector<double> in_global_order(Mechanics& body, const std::string& n
       owners.insert(owners.end(), block.owners.begin(), block.owners.end());
     }
   }
-  const auto components = static_cast<std::size_t>(nodal ? 3 : name == "stress" ? 6 : 1);
+  const auto components = static_cast<std::size_t>(port->field.components);
   std::vector<double> mine;
   for (std::size_t i = 0; i < ids.size(); ++i) {
     if (owners[i] != mesh.comm.rank()) continue;

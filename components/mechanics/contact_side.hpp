@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What contact sees of a mechanical body, and what it does to it.
+#pragma once
+
+#include "components/mechanics/contact_faces.hpp"
+#include "components/mechanics/nodal_conditions.hpp"
+#include "components/mechanics/rigid_bodies.hpp"
+#include "components/mechanics/ties.hpp"
+
+namespace tenon {
+
+/// Impulses come after the kick and all conditions of a step, and leave the velocities along held directions as they
+/// are; what they bring there, the reactions take up. With dv the change by an impulse p, f the resisting force and k
+/// the length of the kick, the books of the step stay exact:
+///   contact_work   += p . (v- + v+)/2
+///   internal_work  += k f . dv/2
+///   reactions      -= (p . d) d . (v- + v+)/2 for each held direction d.
+class ContactSide final : public ContactParty {
+ public:
+  /// Of the component, which outlives this.
+  struct Parts {
+    const Mesh& mesh;
+    const MechanicsOptions& options;
+    const ElementGroups& groups;
+    NodalState& nodes;
+    NodalConditions& conditions;
+    RigidBodies& rigid;
+    const Ties& ties;
+  };
+  /// Local.
+  explicit ContactSide(const Parts& parts);
+
+  const Mesh& contact_mesh() const override { return parts_.mesh; }
+  std::vector<std::string> surface_names() const override;
+  void contact_faces(std::vector<ContactFace>& faces) const override { faces_.list(parts_.groups, faces); }
+  std::int64_t surface_version() const override { return version_; }
+  void watch(std::span<const LocalIndex> nodes) override;
+  std::span<const Vec3> contact_positions() const override { return parts_.nodes.position(); }
+  std::span<const Vec3> contact_velocities() const override { return parts_.nodes.velocity(); }
+  std::span<const Vec3> former_velocities() const override { return former_; }
+  void mobilities(std::span<const LocalIndex> nodes, std::span<Mobility> mobility) const override;
+  std::vector<ContactRigidBody> contact_rigid_bodies() const override { return parts_.rigid.contact_bodies(); }
+  void push(std::span<const LocalIndex> nodes, std::span<const Vec3> impulses,
+            std::span<const BodyImpulse> bodies) override;
+  ExactSum contact_work() const override;
+  ContactFields& contact_fields() override;
+
+  /// Local. Remembers the velocities before the kick, which takes `kick` seconds.
+  void begin(double kick);
+  /// Elements have died, on some rank.
+  void change_surface() { ++version_; }
+  /// Null until contact has asked for them.
+  ContactFields* fields() { return fields_.get(); }
+
+  /// J, by impulses on nodes, and on rigid bodies (the same on every rank): what a restart needs.
+  std::vector<double>& node_work() { return work_; }
+  double& body_work() { return body_work_; }
+  /// Faces of this rank that ties cover.
+  std::int64_t left_out() const { return faces_.left_out(); }
+  std::int64_t memory() const;
+
+ private:
+  static std::vector<char> tied(const Parts& parts);
+  Mobility mobility(LocalIndex node) const;
+  void push_node(LocalIndex node, const Vec3& impulse);
+
+  Parts parts_;
+  ContactFaces faces_;
+  std::int64_t version_ = 0;
+  double kick_ = 0;
+  std::vector<LocalIndex> watched_;
+  std::vector<std::int32_t> place_;  // of each local node in watched_, or -1
+  std::vector<Vec3> former_;         // as watched_: velocities before the kick
+  std::vector<Vec3> impulse_;        // as watched_: of this step so far, N s
+  std::vector<double> work_;         // of each local node, J
+  double body_work_ = 0;
+  std::unique_ptr<ContactFields> fields_;
+};
+
+}  // namespace tenon
