@@ -70,7 +70,8 @@ class ContactParty {
   virtual const Mesh& contact_mesh() const = 0;
   /// Local; the same on every rank. Names that pairs are given by: blocks.
   virtual std::vector<std::string> surface_names() const = 0;
-  /// Local. Faces of the elements that this rank owns, ascending by id; after erosion those that are left and exposed.
+  /// Local. Each face on one rank, which has all of its nodes, ascending by id; after erosion those that are left and
+  /// exposed.
   virtual void contact_faces(std::vector<ContactFace>& faces) const = 0;
   virtual void contact_particles(std::vector<ContactParticle>&) const {}
   /// Changes, on every rank alike, when faces or particles do.
