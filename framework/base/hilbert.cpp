@@ -77,24 +77,28 @@ void HilbertCurve::codes_of(const EightCells& cells, std::array<std::uint64_t, 8
   for (std::size_t k = 0; k < 8; ++k) codes[k] = interleaved(x[0][k], x[1][k], x[2][k]);
 }
 
-// A radix sort by the upper half of the 48 bits, byte by byte, all bytes counted at once; bytes in which all agree are
-// skipped. Then few have neighbours with the same half: those are sorted by the rest.
-std::vector<LocalIndex> order_of_codes(const std::vector<std::uint64_t>& codes) {
-  constexpr std::size_t bytes = 3;
-  constexpr int half = 24;
+// A radix sort by the upper 32 of the 48 bits, digit by digit, all digits counted at once; digits in which all agree
+// are skipped. Then few have neighbours with the same upper bits: those are sorted by the rest.
+void order_of_codes(CurveRoom& room, std::vector<LocalIndex>& order) {
+  constexpr std::size_t digits = 3;
+  constexpr int digit_bits = 11, upper_bits = 32, dropped_bits = 16;
+  constexpr std::uint64_t values = 1 << digit_bits;
+  const std::vector<std::uint64_t>& codes = room.codes;
   const std::size_t count = codes.size();
-  std::array<std::array<std::size_t, 256>, bytes> begin{};
-  std::vector<std::uint64_t> keys(count), other(count);  // half of a code, and its index
+  std::array<std::array<std::uint32_t, values>, digits> begin{};
+  std::vector<std::uint64_t>&keys = room.keys, &other = room.other;  // upper bits of a code, and its index
+  keys.resize(count), other.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
-    const std::uint64_t upper = codes[i] >> half;
-    keys[i] = upper << 32 | i;
-    for (std::size_t b = 0; b < bytes; ++b) ++begin[b][upper >> (8 * b) & 0xff];
+    const std::uint64_t upper = codes[i] >> dropped_bits;
+    keys[i] = upper << upper_bits | i;
+    for (std::size_t d = 0; d < digits; ++d) ++begin[d][upper >> (digit_bits * d) & (values - 1)];
   }
-  for (std::size_t b = 0; b < bytes; ++b) {
-    auto& next = begin[b];
+  for (std::size_t d = 0; d < digits; ++d) {
+    auto& next = begin[d];
     if (std::find(next.begin(), next.end(), count) != next.end()) continue;
-    std::exclusive_scan(next.begin(), next.end(), next.begin(), std::size_t{0});
-    for (const std::uint64_t key : keys) other[next[key >> (32 + 8 * b) & 0xff]++] = key;
+    std::exclusive_scan(next.begin(), next.end(), next.begin(), std::uint32_t{0});
+    const std::size_t shift = upper_bits + digit_bits * d;
+    for (const std::uint64_t key : keys) other[next[key >> shift & (values - 1)]++] = key;
     keys.swap(other);
   }
   const auto index = [](std::uint64_t key) { return static_cast<std::size_t>(key & 0xffffffff); };
@@ -103,14 +107,13 @@ std::vector<LocalIndex> order_of_codes(const std::vector<std::uint64_t>& codes) 
     return code_a != code_b ? code_a < code_b : a < b;
   };
   for (std::size_t first = 0, last; first < count; first = last) {
-    for (last = first + 1; last < count && keys[last] >> 32 == keys[first] >> 32;) ++last;
+    for (last = first + 1; last < count && keys[last] >> upper_bits == keys[first] >> upper_bits;) ++last;
     if (last > first + 1)
       std::sort(keys.begin() + static_cast<std::ptrdiff_t>(first), keys.begin() + static_cast<std::ptrdiff_t>(last),
                 before);
   }
-  std::vector<LocalIndex> order(count);
+  order.resize(count);
   for (std::size_t i = 0; i < count; ++i) order[i] = static_cast<LocalIndex>(index(keys[i]));
-  return order;
 }
 
 }  // namespace tenon

@@ -13,6 +13,11 @@
 
 namespace tenon {
 
+/// Room for orders that are worked out again and again: it grows and stays.
+struct CurveRoom {
+  std::vector<std::uint64_t> codes, keys, other;
+};
+
 /// The curve through 2^48 cubic cells over a box. Unlike Morton's it does not jump, so neighbours along it make compact
 /// groups.
 class HilbertCurve {
@@ -22,7 +27,15 @@ class HilbertCurve {
   std::uint64_t code(const Vec3& x) const;
   /// The points point(i), i < count, in order along the curve; those in the same cell stay in their order.
   template <typename Point>
-  std::vector<LocalIndex> order(std::size_t count, Point&& point) const;
+  std::vector<LocalIndex> order(std::size_t count, Point&& point) const {
+    CurveRoom room;
+    std::vector<LocalIndex> result;
+    order(count, point, room, result);
+    return result;
+  }
+  /// The same, stored in `result`.
+  template <typename Point>
+  void order(std::size_t count, Point&& point, CurveRoom& room, std::vector<LocalIndex>& result) const;
 
  private:
   /// Cells of eight points, coordinate by coordinate.
@@ -38,12 +51,12 @@ class HilbertCurve {
   double scale_ = 0;
 };
 
-/// Indices of codes in ascending order; equal ones stay in their order.
-std::vector<LocalIndex> order_of_codes(const std::vector<std::uint64_t>& codes);
+/// Indices of `room.codes` in ascending order; equal ones stay in their order.
+void order_of_codes(CurveRoom& room, std::vector<LocalIndex>& order);
 
 template <typename Point>
-std::vector<LocalIndex> HilbertCurve::order(std::size_t count, Point&& point) const {
-  std::vector<std::uint64_t> codes(count);
+void HilbertCurve::order(std::size_t count, Point&& point, CurveRoom& room, std::vector<LocalIndex>& result) const {
+  room.codes.resize(count);
   EightCells cells{};
   std::array<std::uint64_t, 8> eight;
   for (std::size_t first = 0; first < count; first += 8) {
@@ -54,9 +67,9 @@ std::vector<LocalIndex> HilbertCurve::order(std::size_t count, Point&& point) co
       for (std::size_t c = 0; c < 3; ++c) cells[c][k] = finite ? cell(x, c) : 0;
     }
     codes_of(cells, eight);
-    std::copy_n(eight.begin(), here, codes.begin() + static_cast<std::ptrdiff_t>(first));
+    std::copy_n(eight.begin(), here, room.codes.begin() + static_cast<std::ptrdiff_t>(first));
   }
-  return order_of_codes(codes);
+  order_of_codes(room, result);
 }
 
 }  // namespace tenon

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "framework/decomposition/zoltan_partitioner.hpp"
 
@@ -127,6 +128,18 @@ void Rcb::ranks_overlapping(const Box& box, std::vector<int>& ranks) const {
   const auto first = impl_->found_parts.begin();
   std::sort(first, first + part_count);
   ranks.insert(ranks.end(), first, first + part_count);
+}
+
+Box Rcb::part(int rank) const {
+  constexpr double infinity = std::numeric_limits<double>::infinity(), greatest = std::numeric_limits<double>::max();
+  Box box{{-infinity, -infinity, -infinity}, {infinity, infinity, infinity}};
+  if (!impl_->has_cuts) return rank == 0 ? box : Box();
+  box = box_of_part(impl_->zoltan->get(), rank);
+  for (std::size_t c = 0; c < 3; ++c) {
+    if (box.low[c] <= -greatest) box.low[c] = -infinity;
+    if (box.high[c] >= greatest) box.high[c] = infinity;
+  }
+  return box;
 }
 
 }  // namespace tenon

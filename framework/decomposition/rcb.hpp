@@ -29,6 +29,10 @@ class Rcb {
   /// Ranks whose part overlaps the box, appended to `ranks` in ascending order. Local, after `partition`.
   void ranks_overlapping(const Box& box, std::vector<int>& ranks) const;
 
+  /// The part of a rank, endless where it has no neighbour; the upper faces belong to the neighbours. The parts of all
+  /// ranks fill space. Empty if there were no points (then all is rank 0's). Local, after `partition`.
+  Box part(int rank) const;
+
  private:
   struct Impl;
   std::shared_ptr<Impl> impl_;
