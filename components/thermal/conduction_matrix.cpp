@@ -6,7 +6,7 @@
 namespace tenon::thermal {
 namespace {
 
-/// Nodes that share an element with each row's node, ascending, without the node itself.
+/// Nodes that share an element with each row's node, in any order and repeated, without the node itself.
 std::vector<std::vector<LocalIndex>> neighbours(const Mesh& mesh, const std::vector<LocalIndex>& row_of_node) {
   std::vector<std::vector<LocalIndex>> of_row(mesh.owned_nodes.size());
   for (const ElementBlock& block : mesh.blocks)
@@ -18,10 +18,6 @@ std::vector<std::vector<LocalIndex>> neighbours(const Mesh& mesh, const std::vec
         for (const LocalIndex j : block.nodes(e))
           if (j != i) list.push_back(j);
       }
-  for (std::vector<LocalIndex>& list : of_row) {
-    std::ranges::sort(list);
-    list.erase(std::unique(list.begin(), list.end()), list.end());
-  }
   return of_row;
 }
 
@@ -30,16 +26,28 @@ std::vector<std::vector<LocalIndex>> neighbours(const Mesh& mesh, const std::vec
 ConductionMatrix::ConductionMatrix(const Mesh& mesh, std::vector<Conductivity> conductivity_of_block)
     : mesh_(mesh), conductivity_(std::move(conductivity_of_block)) {
   for (const ElementBlock& block : mesh.blocks) tables_.emplace_back(block.kind);
-  make_pattern();
+  row_of_node_.assign(static_cast<std::size_t>(mesh.nodes()), no_index);
+  for (std::size_t r = 0; r < mesh.owned_nodes.size(); ++r)
+    row_of_node_[static_cast<std::size_t>(mesh.owned_nodes[r])] = static_cast<LocalIndex>(r);
+  halo_ = mesh.node_halo;
+  make_pattern({});
   place_elements();
 }
 
-void ConductionMatrix::make_pattern() {
-  row_of_node_.assign(static_cast<std::size_t>(mesh_.nodes()), no_index);
-  for (std::size_t r = 0; r < mesh_.owned_nodes.size(); ++r)
-    row_of_node_[static_cast<std::size_t>(mesh_.owned_nodes[r])] = static_cast<LocalIndex>(r);
+GlobalId ConductionMatrix::id_of(LocalIndex column) const {
+  const auto c = static_cast<std::size_t>(column), nodes = mesh_.node_ids.size();
+  return c < nodes ? mesh_.node_ids[c] : beyond_[c - nodes];
+}
+
+void ConductionMatrix::make_pattern(std::span<const ExtraEntry> extra) {
+  std::vector<std::vector<LocalIndex>> of_row = neighbours(mesh_, row_of_node_);
+  for (const ExtraEntry& entry : extra)
+    of_row[static_cast<std::size_t>(row_of_node_[static_cast<std::size_t>(entry.node)])].push_back(entry.column);
   offsets_.assign(1, 0);
-  for (const std::vector<LocalIndex>& row : neighbours(mesh_, row_of_node_)) {
+  columns_.clear();
+  for (std::vector<LocalIndex>& row : of_row) {
+    std::ranges::sort(row, {}, [this](LocalIndex column) { return id_of(column); });
+    row.erase(std::unique(row.begin(), row.end()), row.end());
     columns_.insert(columns_.end(), row.begin(), row.end());
     offsets_.push_back(static_cast<LocalIndex>(columns_.size()));
   }
@@ -47,13 +55,37 @@ void ConductionMatrix::make_pattern() {
   diagonal_.assign(mesh_.owned_nodes.size(), 0.0);
 }
 
-/// Position of K_ij among the values; no_index if another rank has that row.
+void ConductionMatrix::extend(const Directory& owners, std::vector<GlobalId> beyond,
+                              std::span<const ExtraEntry> extra) {
+  beyond_ = std::move(beyond);
+  std::vector<GlobalId> ids;
+  std::vector<LocalIndex> into;
+  for (LocalIndex n = 0; n < static_cast<LocalIndex>(width()); ++n) {
+    if (n < mesh_.nodes() && mesh_.owns_node(n)) continue;
+    ids.push_back(id_of(n));
+    into.push_back(n);
+  }
+  std::vector<int> owner;
+  std::vector<LocalIndex> index;
+  for (const DirectoryEntry& entry : owners.find(ids)) {
+    owner.push_back(entry.rank);
+    index.push_back(entry.index);
+  }
+  halo_ = ExchangePlan::from_owners(mesh_.comm, owner, index, into, "thermal contact halo");
+  make_pattern(extra);
+  places_.clear();
+  first_place_.clear();
+  place_elements();
+}
+
 LocalIndex ConductionMatrix::place(LocalIndex i, LocalIndex j) const {
   const LocalIndex row = row_of_node_[static_cast<std::size_t>(i)];
   if (row == no_index) return no_index;
   const auto first = columns_.begin() + offsets_[static_cast<std::size_t>(row)];
   const auto last = columns_.begin() + offsets_[static_cast<std::size_t>(row) + 1];
-  return static_cast<LocalIndex>(std::lower_bound(first, last, j) - columns_.begin());
+  const auto found =
+      std::lower_bound(first, last, id_of(j), [this](LocalIndex a, GlobalId id) { return id_of(a) < id; });
+  return static_cast<LocalIndex>(found - columns_.begin());
 }
 
 void ConductionMatrix::place_elements() {

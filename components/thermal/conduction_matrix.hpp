@@ -7,6 +7,7 @@
 
 #include "components/thermal/conductivity.hpp"
 #include "components/thermal/element_conduction.hpp"
+#include "framework/comm/directory.hpp"
 #include "framework/mesh/mesh.hpp"
 
 namespace tenon::thermal {
@@ -14,7 +15,7 @@ namespace tenon::thermal {
 /// K_ij = integral of k grad N_i . grad N_j over the current configuration, W/K, in compressed rows. Row r belongs to
 /// mesh.owned_nodes[r]; its columns ascend by global id, and the elements add to it in ascending order: the same bits
 /// on any number of ranks, also for K_ij and K_ji on different ranks. The diagonal is minus the sum of the rest of its
-/// row.
+/// row. Columns are local nodes and, behind them, nodes of other ranks that contact brings in.
 class ConductionMatrix {
  public:
   /// Collective only in that every rank makes its own. The mesh must outlive this.
@@ -30,6 +31,24 @@ class ConductionMatrix {
   /// bad element.
   BadElement assemble(std::span<const Vec3> coordinates, std::span<const double> temperature);
   const Conductivity& conductivity(std::size_t block) const { return conductivity_[block]; }
+
+  /// An entry beside those between nodes of one element: row of an owned node, column.
+  struct ExtraEntry {
+    LocalIndex node, column;
+    auto operator<=>(const ExtraEntry&) const = default;
+  };
+  /// Collective. Makes columns nodes() ... of the nodes `beyond` (ascending, none of them local) and room for `extra`
+  /// (column as numbered then), in place of those of the last call. `owners` knows the owned nodes of all ranks.
+  void extend(const Directory& owners, std::vector<GlobalId> beyond, std::span<const ExtraEntry> extra);
+  /// Length of the vectors that are multiplied: local nodes and nodes beyond.
+  std::size_t width() const { return static_cast<std::size_t>(mesh_.nodes()) + beyond_.size(); }
+  std::span<const GlobalId> beyond() const { return beyond_; }
+  /// Refreshes everything in such a vector that is not owned.
+  const ExchangePlan& halo() const { return halo_; }
+  /// Position of an entry among the values; no_index if another rank has that row. The entry must exist.
+  LocalIndex place(LocalIndex i, LocalIndex j) const;
+  /// Local. Adds to one value, W/K, between `assemble` and `finish`.
+  void add_at(LocalIndex place, double value) { values_[static_cast<std::size_t>(place)] += value; }
 
   /// Local. Adds to K_ij and K_ji (W/K), between `assemble` and `finish`; nodes of one element only.
   void add_link(LocalIndex i, LocalIndex j, double value);
@@ -51,22 +70,22 @@ class ConductionMatrix {
   std::span<const LocalIndex> row_of_node() const { return row_of_node_; }
   LocalIndex rows() const { return static_cast<LocalIndex>(diagonal_.size()); }
   std::span<const double> diagonal() const { return diagonal_; }
-  /// The rest: entries of row r stand in offsets()[r] .. offsets()[r + 1]; columns are local nodes.
+  /// The rest: entries of row r stand in offsets()[r] .. offsets()[r + 1]; columns as above.
   std::span<const LocalIndex> offsets() const { return offsets_; }
   std::span<const LocalIndex> columns() const { return columns_; }
   std::span<const double> values() const { return values_; }
 
-  /// Local. out_r = -(K x)_r, as a sum of differences: exactly 0 where x is constant. x: all local nodes; out: rows.
+  /// Local. out_r = -(K x)_r, as a sum of differences: exactly 0 where x is constant. x: width(); out: rows.
   void conducted(std::span<const double> x, std::span<double> out) const;
-  /// Local. out_r = d_r x_r + factor * (sum over the off-diagonal of row r). x: all local nodes; d, out: rows.
+  /// Local. out_r = d_r x_r + factor * (sum over the off-diagonal of row r). x: width(); d, out: rows.
   void multiply(std::span<const double> d, double factor, std::span<const double> x, std::span<double> out) const;
 
   std::int64_t memory() const;
 
  private:
-  void make_pattern();
+  void make_pattern(std::span<const ExtraEntry> extra);
   void place_elements();
-  LocalIndex place(LocalIndex i, LocalIndex j) const;
+  GlobalId id_of(LocalIndex column) const;
   BadElement assemble_block(LocalIndex block, LocalIndex first_element, std::span<const Vec3> coordinates,
                             std::span<const double> temperature);
   void conduct(std::size_t block, const CornerBatch& corners, const double (&temperature)[lanes],
@@ -78,6 +97,8 @@ class ConductionMatrix {
   const Mesh& mesh_;
   std::vector<Conductivity> conductivity_;  // of blocks
   std::vector<ElementTable> tables_;        // of blocks
+  std::vector<GlobalId> beyond_;
+  ExchangePlan halo_;
   std::vector<LocalIndex> offsets_, columns_;
   std::vector<double> values_, diagonal_;
   std::vector<LocalIndex> row_of_node_;                         // no_index for ghosts

@@ -15,7 +15,7 @@ ConjugateGradient::ConjugateGradient(const Mesh& mesh) : mesh_(mesh) {
 
 void ConjugateGradient::true_residual(const HeatSystem& system, std::span<const double> b, std::span<double> x,
                                       std::span<double> r) {
-  mesh_.node_halo.forward(std::span<const double>(x), x);
+  system.matrix.halo().forward(std::span<const double>(x), x);
   system.matrix.multiply(system.diagonal, system.factor, x, w_);
   for (std::size_t k = 0; k < r.size(); ++k) r[k] = b[k] - w_[k];
 }
@@ -26,7 +26,7 @@ ConjugateGradient::Dots ConjugateGradient::precondition(const HeatSystem& system
   else
     for (std::size_t k = 0; k < r.size(); ++k)
       u_[static_cast<std::size_t>(mesh_.owned_nodes[k])] = system.inverse_diagonal[k] * r[k];
-  mesh_.node_halo.forward(std::span<const double>(u_), std::span<double>(u_));
+  system.matrix.halo().forward(std::span<const double>(u_), std::span<double>(u_));
   system.matrix.multiply(system.diagonal, system.factor, u_, w_);
   std::array<ExactSum, 3> local;
   for (std::size_t k = 0; k < r.size(); ++k) {
@@ -45,7 +45,7 @@ double ConjugateGradient::scale_of(const HeatSystem& system, std::span<const dou
     const auto n = static_cast<std::size_t>(mesh_.owned_nodes[k]);
     u_[n] = system.inverse_diagonal[k] == 0 ? x[n] : 0.0;
   }
-  mesh_.node_halo.forward(std::span<const double>(u_), std::span<double>(u_));
+  system.matrix.halo().forward(std::span<const double>(u_), std::span<double>(u_));
   system.matrix.multiply(system.diagonal, system.factor, u_, w_);
   ExactSum local;
   for (std::size_t k = 0; k < b.size(); ++k) local.add(system.inverse_diagonal[k] * (b[k] - w_[k]) * (b[k] - w_[k]));
@@ -91,6 +91,7 @@ SolveReport ConjugateGradient::solve(const HeatSystem& system, std::span<const d
   constexpr int restarts = 5;
   constexpr double round_off = 64 * std::numeric_limits<double>::epsilon();
   multigrid_ = multigrid;
+  u_.resize(system.matrix.width());
   const double scale = scale_of(system, b, x);
   // Nothing drives the free rows: from a guess that is not zero, iterations would only ever come nearer.
   for (std::size_t k = 0; k < b.size() && scale == 0; ++k)

@@ -24,7 +24,7 @@ class ConjugateGradient {
  public:
   explicit ConjugateGradient(const Mesh& mesh);
 
-  /// Collective. `x` (all local nodes) brings the held values and a first guess, and takes the solution, ghosts
+  /// Collective. `x` (matrix.width()) brings the held values and a first guess, and takes the solution, ghosts
   /// included; `residual` takes b - A x of all rows, held ones included. Converged when the true residual is
   /// `tolerance` times the right-hand side (less what the held values bring), or as small as round-off in x allows.
   /// `multigrid`: built for this system, or nullptr for the diagonal; the measure of convergence is the same.
@@ -50,7 +50,7 @@ class ConjugateGradient {
 
   const Mesh& mesh_;
   Multigrid* multigrid_ = nullptr;  // of the present solution
-  std::vector<double> u_;           // all local nodes
+  std::vector<double> u_;           // of the width of the matrix
   std::vector<double> w_, p_, s_;   // rows
 };
 

@@ -40,7 +40,7 @@ struct MeshMatrix {
     }
   }
   void multiply(std::span<double> v, std::span<double> out) const {
-    mesh.node_halo.forward(std::span<const double>(v), v);
+    system.matrix.halo().forward(std::span<const double>(v), v);
     multiply_here(v, out);
   }
   double row_size(std::size_t k) const {
@@ -63,7 +63,6 @@ struct MeshMatrix {
 Multigrid::Multigrid(const Mesh& mesh) : mesh_(mesh), grid_(auxiliary_grid(mesh)) {
   rest_.assign(mesh.owned_nodes.size(), 0.0);
   product_ = rest_;
-  change_.assign(static_cast<std::size_t>(mesh.nodes()), 0.0);
 }
 
 void Multigrid::build(const HeatSystem& system) {
@@ -79,6 +78,7 @@ void Multigrid::build(const HeatSystem& system) {
 
 // Points whose hat is positive at a node that is not held, on any rank.
 void Multigrid::lay_out(const HeatSystem& system) {
+  change_.assign(system.matrix.width(), 0.0);
   std::vector<double> free(change_.size(), 0.0);
   for (std::size_t k = 0; k < rest_.size(); ++k)
     free[static_cast<std::size_t>(mesh_.owned_nodes[k])] = system.inverse_diagonal[k] > 0 ? 1.0 : 0.0;
@@ -88,7 +88,7 @@ void Multigrid::lay_out(const HeatSystem& system) {
       grid_.hats(mesh_.coordinates[static_cast<std::size_t>(n)],
                  [&](LocalIndex p, double) { ++nodes[static_cast<std::size_t>(p)]; });
   mesh_.comm.sum(nodes);
-  mesh_.node_halo.forward(std::span<const double>(free), std::span<double>(free));
+  system.matrix.halo().forward(std::span<const double>(free), std::span<double>(free));
   points_.clear();
   std::vector<LocalIndex> number(nodes.size(), no_index);
   most_nodes_ = 1;
@@ -98,21 +98,25 @@ void Multigrid::lay_out(const HeatSystem& system) {
     points_.push_back(static_cast<LocalIndex>(p));
     most_nodes_ = std::max(most_nodes_, nodes[p]);
   }
-  interpolate(free, number);
+  std::vector<Vec3> places = mesh_.coordinates;
+  places.resize(change_.size());
+  system.matrix.halo().forward(std::span<const Vec3>(places), std::span(places));
+  interpolate(places, free, number);
   coarse_.assign(points_.size(), 0.0);
   coarse_solution_ = coarse_;
   exact_.assign(points_.size(), 0);
   levels_.lay_out(grid_, points_);
 }
 
-void Multigrid::interpolate(std::span<const double> free, std::span<const LocalIndex> number) {
+void Multigrid::interpolate(std::span<const Vec3> places, std::span<const double> free,
+                            std::span<const LocalIndex> number) {
   interpolation_ = {};
   interpolation_.columns = static_cast<LocalIndex>(points_.size());
   SparseMatrix<float> owned;
   owned.columns = interpolation_.columns;
   for (std::size_t n = 0; n < free.size(); ++n) {
     if (free[n] > 0)
-      grid_.hats(mesh_.coordinates[n], [&](LocalIndex p, double w) {
+      grid_.hats(places[n], [&](LocalIndex p, double w) {
         interpolation_.add(number[static_cast<std::size_t>(p)], static_cast<float>(w));
       });
     interpolation_.end_row();
@@ -272,7 +276,7 @@ void Multigrid::correct(std::span<double> z) {
 
 void Multigrid::apply(const HeatSystem& system, std::span<const double> r, std::span<double> z) {
   smooth_mesh(system, r, z, true);
-  mesh_.node_halo.forward(std::span<const double>(z), z);
+  system.matrix.halo().forward(std::span<const double>(z), z);
   MeshMatrix{mesh_, system, links_}.multiply_here(z, product_);
   // What is left of a held row is none of ours: its column of the restriction is empty, but its size would count.
   for (std::size_t k = 0; k < rest_.size(); ++k) rest_[k] = system.inverse_diagonal[k] > 0 ? r[k] - product_[k] : 0.0;

@@ -19,18 +19,18 @@ class Multigrid {
  public:
   /// Collective. Lays the grid over the reference configuration.
   explicit Multigrid(const Mesh& mesh);
-  /// Collective. Prepares for this system; must be repeated when the matrix has changed. Always of the same mesh and
-  /// the same held nodes, so that all but the first time only numbers are filled in and nothing is allocated. A system
-  /// with another factor, up to twice or half, may then be preconditioned too.
+  /// Collective. Prepares for this system; must be repeated when the matrix has changed. Always of the same mesh,
+  /// pattern and the same held nodes, so that all but the first time only numbers are filled in and nothing is
+  /// allocated. A system with another factor, up to twice or half, may then be preconditioned too.
   void build(const HeatSystem& system);
   bool built() const { return built_; }
-  /// Collective. z (all local nodes; ghosts are not refreshed) = M^-1 r. Allocates nothing.
+  /// Collective. z (width of the matrix; ghosts are not refreshed) = M^-1 r. Allocates nothing.
   void apply(const HeatSystem& system, std::span<const double> r, std::span<double> z);
   std::int64_t memory() const;
 
  private:
   void lay_out(const HeatSystem& system);
-  void interpolate(std::span<const double> free, std::span<const LocalIndex> number);
+  void interpolate(std::span<const Vec3> places, std::span<const double> free, std::span<const LocalIndex> number);
   void lay_out_sums();
   double times_interpolation(const HeatSystem& system);
   int galerkin(const HeatSystem& system);
@@ -43,7 +43,7 @@ class Multigrid {
   RectilinearGrid grid_;
   bool built_ = false;
   std::int64_t most_nodes_ = 1;        // that one hat holds, over all ranks
-  SparseMatrix<float> interpolation_;  // from the points in use to all local nodes
+  SparseMatrix<float> interpolation_;  // from the points in use to all columns
   SparseMatrix<float> restriction_;    // from the owned nodes (rows) to the points in use
   std::vector<float> links_;           // off-diagonal entries of K
   std::vector<LocalIndex> points_;
@@ -60,7 +60,7 @@ class Multigrid {
   CoarseLevels levels_;
   Chebyshev smoother_;
   std::vector<double> rest_, product_;  // rows
-  std::vector<double> change_;          // all local nodes
+  std::vector<double> change_;          // of the width of the matrix
   std::vector<double> coarse_, coarse_solution_;
   std::vector<std::int64_t> exact_;
 };

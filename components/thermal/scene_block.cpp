@@ -103,6 +103,34 @@ Schema radiation_schema() {
   return s;
 }
 
+Schema contact_schema() {
+  Schema s(
+      "Heat that passes between two surfaces whose meshes need not match: (h + k / gap) times the difference of "
+      "temperature, h where they touch and k / gap across a narrow gap. The surfaces are where the body has moved to.");
+  s.text("first", "Side set of the mesh.").required();
+  s.text("second", "Side set of the mesh.").required();
+  s.function("conductance", "W/(m^2 K)", "Conductance h over time where the surfaces touch.");
+  s.table("conductance_over_pressure", "pressure", "Pa", "W/(m^2 K)",
+          "Conductance h over the pressure that is transferred to `contact_pressure`, in place of `conductance`; held "
+          "constant outside of the points. Without a transfer the pressure is 0.",
+          Range::not_negative());
+  s.at_most_one({"conductance", "conductance_over_pressure"});
+  s.quantity("reference_pressure", "Pa",
+             "With it, h is conductance times (pressure / reference_pressure)^exponent once a transfer has brought the "
+             "pressure to `contact_pressure`.",
+             "", Range::positive());
+  s.quantity("exponent", "1", "Of the pressure; 0.95 for rough surfaces that conform [Yov82].", "0.95",
+             Range::positive());
+  s.quantity("touching_gap", "m",
+             "Surfaces that are no farther apart touch, and so do those that overlap; without it, a tenth of the size "
+             "of the sides.",
+             "", Range::positive());
+  s.quantity("gap_conductivity", "W/(m K)", "Conductivity k of what fills the gap.", "", Range::positive());
+  s.quantity("least_gap", "m", "Narrower gaps count as this: the roughness of the surfaces.", "", Range::positive());
+  s.quantity("greatest_gap", "m", "Nothing passes across wider gaps.", "", Range::positive());
+  return s;
+}
+
 Schema source_schema() {
   Schema s("Heat source within a block.");
   s.text("block", "Block of the mesh.").required();
@@ -183,6 +211,48 @@ void check_absolute(const Value& item, const TimeFunction& temperature, Diagnost
                                                          temperature(0)));
 }
 
+/// Complains about keys that mean nothing without another one.
+void check_contact(const Value& item, Diagnostics& diagnostics) {
+  const auto needs = [&](const char* key, const char* other) {
+    if (item.given(key) && !item.has(other))
+      diagnostics.error(item.where(key), fmt::format("{}: means nothing without '{}'; give both or none", key, other));
+  };
+  needs("reference_pressure", "conductance");
+  needs("exponent", "reference_pressure");
+  for (const char* key : {"least_gap", "greatest_gap"}) {
+    needs(key, "gap_conductivity");
+    needs("gap_conductivity", key);
+  }
+  if (!item.has("conductance") && !item.has("conductance_over_pressure") && !item.has("gap_conductivity"))
+    diagnostics.error(item.where(),
+                      "contact_conductance: nothing passes; expected 'conductance', 'conductance_over_pressure' or "
+                      "'gap_conductivity'");
+  if (item.text("first") == item.text("second"))
+    diagnostics.error(item.where("second"),
+                      fmt::format("second: '{}' is also 'first'; expected two surfaces", item.text("second")));
+}
+
+ThermalContact read_contact(const Value& item, const MeshSummary& mesh, Diagnostics& diagnostics) {
+  check_name(item, "first", mesh.side_sets, "side set", mesh, diagnostics);
+  check_name(item, "second", mesh.side_sets, "side set", mesh, diagnostics);
+  check_contact(item, diagnostics);
+  ThermalContact contact;
+  contact.first = item.text("first"), contact.second = item.text("second");
+  if (item.has("conductance")) contact.conductance = item.function("conductance");
+  if (contact.conductance(0) < 0)
+    diagnostics.error(item.where("conductance"),
+                      fmt::format("conductance: {:.6g} W/(m^2 K); expected 0 or more", contact.conductance(0)));
+  if (item.has("reference_pressure")) contact.reference_pressure = item.real("reference_pressure");
+  contact.exponent = item.real("exponent");
+  if (item.has("conductance_over_pressure"))
+    contact.over_pressure = TimeFunction::table(item.table("conductance_over_pressure"));
+  if (item.has("gap_conductivity")) contact.gap_conductivity = item.real("gap_conductivity");
+  if (item.has("least_gap")) contact.least_gap = item.real("least_gap");
+  if (item.has("greatest_gap")) contact.greatest_gap = item.real("greatest_gap");
+  if (item.has("touching_gap")) contact.touching_gap = item.real("touching_gap");
+  return contact;
+}
+
 void read_conditions(const Value& value, const MeshSummary& mesh, ThermalOptions& options, Diagnostics& diagnostics) {
   const auto items = [&](const char* key) { return value.has(key) ? value.items(key) : std::vector<Value>{}; };
   for (const Value& item : items("prescribed_temperatures")) {
@@ -202,6 +272,8 @@ void read_conditions(const Value& value, const MeshSummary& mesh, ThermalOptions
     options.radiation.push_back({item.text("side_set"), item.real("emissivity"), item.function("ambient")});
     check_absolute(item, options.radiation.back().ambient, diagnostics);
   }
+  for (const Value& item : items("contact_conductance"))
+    options.contacts.push_back(read_contact(item, mesh, diagnostics));
   for (const Value& item : items("sources")) {
     check_name(item, "block", mesh.blocks, "block", mesh, diagnostics);
     options.sources.push_back({item.text("block"), item.function("power")});
@@ -295,6 +367,7 @@ Schema thermal_schema() {
   s.list("fluxes", flux_schema(), "Heat fluxes through side sets.");
   s.list("convection", convection_schema(), "Exchange with the surroundings through side sets.");
   s.list("radiation", radiation_schema(), "Radiation to and from the surroundings through side sets.");
+  s.list("contact_conductance", contact_schema(), "Heat that passes between surfaces of this mesh.");
   s.list("sources", source_schema(), "Heat sources within blocks.");
   return s;
 }

@@ -7,28 +7,10 @@
 #include <array>
 
 #include "components/thermal/element_conduction.hpp"
+#include "components/thermal/surface_projection.hpp"
 #include "framework/base/error.hpp"
 
 namespace tenon::thermal {
-namespace {
-
-struct Corners {
-  std::array<LocalIndex, max_side_nodes> nodes{};
-  std::size_t count = 0;
-};
-
-Corners corners_of(const Mesh& mesh, const Side& side) {
-  const ElementBlock& block = mesh.blocks[static_cast<std::size_t>(side.block)];
-  const Topology& shape = topology(block.kind);
-  const auto s = static_cast<std::size_t>(side.side);
-  Corners corners;
-  corners.count = static_cast<std::size_t>(shape.side_nodes[s]);
-  for (std::size_t a = 0; a < corners.count; ++a)
-    corners.nodes[a] = block.nodes(side.element)[static_cast<std::size_t>(shape.side[s][a])];
-  return corners;
-}
-
-}  // namespace
 
 Surface::Surface(const Mesh& mesh, const std::string& side_set) : mesh_(mesh), sides_(mesh.find_side_set(side_set)) {
   if (!sides_)
@@ -36,7 +18,7 @@ Surface::Surface(const Mesh& mesh, const std::string& side_set) : mesh_(mesh), s
                 fmt::format("heat conduction: the mesh {} has no side set '{}'", mesh.source, side_set));
   std::vector<LocalIndex> nodes;
   for (const Side& side : sides_->sides) {
-    const Corners corners = corners_of(mesh, side);
+    const SideCorners corners = side_corners(mesh, side);
     nodes.insert(nodes.end(), corners.nodes.begin(),
                  corners.nodes.begin() + static_cast<std::ptrdiff_t>(corners.count));
   }
@@ -50,7 +32,7 @@ Surface::Surface(const Mesh& mesh, const std::string& side_set) : mesh_(mesh), s
   for (const LocalIndex n : nodes) rows_.push_back(position(mesh.owned_nodes, n));
   areas_.assign(rows_.size(), 0.0);
   for (const Side& side : sides_->sides) {
-    const Corners corners = corners_of(mesh, side);
+    const SideCorners corners = side_corners(mesh, side);
     for (std::size_t a = 0; a < max_side_nodes; ++a)
       entries_.push_back(a < corners.count ? position(nodes, corners.nodes[a]) : no_index);
   }
@@ -62,7 +44,7 @@ void Surface::update(std::span<const Vec3> coordinates) {
   std::array<double, max_side_nodes> area{};
   std::size_t entry = 0;
   for (const Side& side : sides_->sides) {
-    const Corners corners = corners_of(mesh_, side);
+    const SideCorners corners = side_corners(mesh_, side);
     for (std::size_t a = 0; a < corners.count; ++a) place[a] = coordinates[static_cast<std::size_t>(corners.nodes[a])];
     nodal_areas(std::span(place).first(corners.count), std::span(area).first(corners.count));
     for (std::size_t a = 0; a < max_side_nodes; ++a, ++entry)
@@ -74,7 +56,7 @@ void Surface::links(std::span<const Vec3> coordinates,
                     const std::function<void(LocalIndex, LocalIndex, double)>& use) const {
   std::array<Vec3, max_side_nodes> place{};
   for (const Side& side : sides_->sides) {
-    const Corners corners = corners_of(mesh_, side);
+    const SideCorners corners = side_corners(mesh_, side);
     for (std::size_t a = 0; a < corners.count; ++a) place[a] = coordinates[static_cast<std::size_t>(corners.nodes[a])];
     const SideLinks link = side_links(std::span(place).first(corners.count));
     for (std::size_t a = 0; a < corners.count; ++a)

@@ -59,6 +59,8 @@ Thermal::Thermal(std::string name, std::shared_ptr<const Mesh> mesh, ThermalOpti
   check_stepper();
   make_loads();
   make_held();
+  if (!options_.contacts.empty()) contact_ = std::make_unique<thermal::ContactConductance>(*mesh_, options_.contacts);
+  if (contact_ && contact_->needs_pressure()) pressure_.assign(nodes, 0.0);
   if (!goes_by_stages()) return;
   for (std::vector<double>* v :
        {&rate_, &first_rate_, &mid_rate_, &target_, &start_rise_, &start_energy_, &given_, &received_})
@@ -80,6 +82,7 @@ double Thermal::theta() const {
 
 double Thermal::stable_limit() {
   refresh_geometry();
+  follow_contacts(time());
   return stiffest_ > 0 ? 2 / stiffest_ : std::numeric_limits<double>::infinity();
 }
 
@@ -144,22 +147,30 @@ void Thermal::assemble() {
       film_[static_cast<std::size_t>(rows[i])] += load.coefficient * load.surface.areas()[i];
   }
   for (RadiationLoad& load : radiation_loads_) load.surface.update(coordinates_);
+  if (contact_) find_contacts();
   throw_if_inverted(assemble_matrix());
   assembled_ = multigrid_stale_ = true;
+  find_stiffest();
+}
+
+// The bounds of conduction, convection and contact add up: the greatest eigenvalue of a sum is not above the sum of
+// theirs. Collective.
+void Thermal::find_stiffest() {
   if (!is_explicit()) return;
-  // The bounds of conduction and convection add up: the greatest eigenvalue of a sum is not above the sum of theirs.
   double film = 0;
   for (std::size_t k = 0; k < film_.size(); ++k)
     if (capacity_[k] > 0) film = std::max(film, film_[k] / capacity_[k]);
-  std::array<double, 2> greatest{matrix_.stiffest().eigenvalue, film};
+  const double contact = contact_ ? contact_->greatest_eigenvalue(capacity_, matrix_) : 0;
+  std::array<double, 3> greatest{matrix_.stiffest().eigenvalue, film, contact};
   mesh_->comm.max(greatest);
-  stiffest_ = greatest[0] + greatest[1];
+  stiffest_ = greatest[0] + greatest[1] + greatest[2];
 }
 
 // Local: geometry, surfaces and temperatures are up to date.
 thermal::ConductionMatrix::BadElement Thermal::assemble_matrix() {
   const auto bad = matrix_.assemble(coordinates_, temperature_);
   for (const ConvectionLoad& load : convection_loads_) add_film_links(load);
+  if (contact_) contact_->add_to(matrix_);
   matrix_.finish();
   return bad;
 }

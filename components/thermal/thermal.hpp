@@ -12,6 +12,7 @@
 
 #include "components/thermal/conduction_matrix.hpp"
 #include "components/thermal/conjugate_gradient.hpp"
+#include "components/thermal/contact_conductance.hpp"
 #include "components/thermal/heat_content.hpp"
 #include "components/thermal/surface.hpp"
 #include "components/thermal/thermal_options.hpp"
@@ -49,7 +50,12 @@ class Thermal : public Component {
   std::int64_t memory() const override;
 
   /// Present temperature of all local nodes, K.
-  std::span<const double> temperature() const { return temperature_; }
+  std::span<const double> temperature() const {
+    return std::span(temperature_).first(static_cast<std::size_t>(mesh_->nodes()));
+  }
+  /// Collective. Heat that passes now from the first to the second surface of a contact (in the order of the options),
+  /// W.
+  double contact_power(std::size_t contact) const { return contact_->power(contact, temperature_); }
   /// Greatest explicit step at the present geometry, s: 2 / bound of the greatest eigenvalue. Explicit stepper only.
   double stable_limit();
   /// Of the last implicit step.
@@ -112,6 +118,10 @@ class Thermal : public Component {
   void assemble();
   thermal::ConductionMatrix::BadElement assemble_matrix();
   void add_film_links(const ConvectionLoad& load);
+  void find_stiffest();
+  void find_contacts();
+  void weigh_contacts(double at);
+  void follow_contacts(double at);
   void throw_if_inverted(const thermal::ConductionMatrix::BadElement& bad) const;
   std::string describe(LocalIndex block, LocalIndex element) const;
 
@@ -163,6 +173,7 @@ class Thermal : public Component {
   void read_heat_flux(std::span<double> out) const;
   void receive_heat(std::span<const double> values);
   void receive_displacement(std::span<const double> values);
+  void receive_pressure(std::span<const double> values);
   std::vector<std::pair<std::string, std::vector<double>*>> owned_state();
 
   std::shared_ptr<const Mesh> mesh_;
@@ -176,12 +187,15 @@ class Thermal : public Component {
   std::vector<SourceLoad> source_loads_;
   thermal::HeatContent content_;
   std::vector<Held> held_;
+  std::unique_ptr<thermal::ContactConductance> contact_;  // nullptr without
 
   // Of all local nodes.
   std::vector<Vec3> coordinates_;     // current, m
   std::vector<double> displacement_;  // 3 per node, m
-  std::vector<double> temperature_;   // K
-  std::vector<double> increment_;     // of the last step, K
+  // ... and those that contact brings in from other ranks: the width of the matrix.
+  std::vector<double> temperature_;  // K
+  std::vector<double> increment_;    // of the last step, K
+  std::vector<double> pressure_;     // of contact, Pa; kept only if a conductance depends on it
 
   // Of the owned nodes.
   std::vector<double> initial_, rise_;  // K; temperature = initial + rise
@@ -217,6 +231,7 @@ class Thermal : public Component {
   double stiffest_ = 0;       // greatest eigenvalue bound over all ranks, 1/s
   double free_capacity_ = 0;  // of all nodes that are not held, J/K
   bool loaded_ = false;       // the state came from a checkpoint
+  bool pressed_ = false;      // somebody says what the pressure of contact is
   bool displaced_ = false;    // a displacement was received since the last assembly
   bool moved_here_ = false;   // ... and it differs on this rank
   bool assembled_ = false;    // since the last step

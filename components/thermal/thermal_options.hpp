@@ -64,6 +64,19 @@ struct Radiation {
   TimeFunction ambient;  ///< K
 };
 
+/// Heat passes between two surfaces that need not match: q = (h + k / max(gap, least gap)) (T_first - T_second), the
+/// first term where they touch, the second where they are no farther apart than `greatest_gap`.
+struct ThermalContact {
+  std::string first, second;                             ///< side sets
+  TimeFunction conductance = TimeFunction::constant(0);  ///< h, W/(m^2 K); at `reference_pressure` if that is given
+  std::optional<double> reference_pressure = {};         ///< Pa; h grows as (p / this)^exponent
+  double exponent = 0.95;
+  std::optional<TimeFunction> over_pressure = {};  ///< h over p (Pa), in place of the three above
+  double gap_conductivity = 0;                     ///< k, W/(m K)
+  double least_gap = 0, greatest_gap = 0;          ///< m
+  std::optional<double> touching_gap = {};         ///< m; without it a tenth of the size of a side
+};
+
 /// How the TR-BDF2 stepper chooses its step.
 struct StepControl {
   double tolerance = 0.1;              ///< K, error of a step anywhere
@@ -94,6 +107,7 @@ struct ThermalOptions {
   std::vector<Convection> convection;
   std::vector<Radiation> radiation;
   std::vector<HeatSource> sources;
+  std::vector<ThermalContact> contacts;
 
   /// For programs and manufactured solutions; a scene cannot give them. Positions are of the reference configuration
   /// (m).

@@ -9,7 +9,7 @@ namespace tenon {
 
 std::vector<ExportPort> Thermal::exports() {
   return {{{"temperature", Location::node, FieldKind::point_value, 1, "K"},
-           [this](std::span<double> out) { std::ranges::copy(temperature_, out.begin()); }},
+           [this](std::span<double> out) { std::ranges::copy(temperature(), out.begin()); }},
           {{"heat_flux", Location::element, FieldKind::flux, 3, "W/m^2"},
            [this](std::span<double> out) { read_heat_flux(out); }}};
 }
@@ -20,11 +20,15 @@ std::vector<ImportPort> Thermal::imports() {
     hurry = "the stepper tr_bdf2 of '" + name() +
             "' chooses its step from the heat that comes, so it must see it at once: give it time_step.maximum or "
             "time_step.fixed";
-  return {{{"displacement", Location::node, FieldKind::point_value, 3, "m"},
-           [this](std::span<const double> values) { receive_displacement(values); }},
-          {{"heat", Location::node, FieldKind::total, 1, "J"},
-           [this](std::span<const double> values) { receive_heat(values); },
-           hurry}};
+  std::vector<ImportPort> ports{{{"displacement", Location::node, FieldKind::point_value, 3, "m"},
+                                 [this](std::span<const double> values) { receive_displacement(values); }},
+                                {{"heat", Location::node, FieldKind::total, 1, "J"},
+                                 [this](std::span<const double> values) { receive_heat(values); },
+                                 hurry}};
+  if (contact_ && contact_->needs_pressure())
+    ports.push_back({{"contact_pressure", Location::node, FieldKind::point_value, 1, "Pa"},
+                     [this](std::span<const double> values) { receive_pressure(values); }});
+  return ports;
 }
 
 // -k grad T at the centre of each element.
@@ -126,6 +130,12 @@ void Thermal::save(CheckpointWriter& file) {
     for (std::size_t c = 0; c < 3; ++c) displacement.push_back(displacement_[3 * n + c]);
   }
   const GlobalOrder order(mesh_->comm, ids, mesh_->global_nodes);
+  if (contact_ && contact_->needs_pressure()) {
+    std::vector<double> pressure;
+    for (const LocalIndex n : mesh_->owned_nodes) pressure.push_back(pressure_[static_cast<std::size_t>(n)]);
+    file.array(name() + ".contact_pressure", order, pressure, 1);
+    file.integer(name() + ".contact_pressure_known", pressed_ ? 1 : 0);
+  }
   for (const auto& [field, values] : owned_state()) file.array(name() + "." + field, order, *values, 1);
   file.array(name() + ".displacement", order, displacement, 3);
   file.array(name() + ".last_increment", order, increment, 1);
@@ -148,6 +158,10 @@ void Thermal::load(const CheckpointReader& file) {
   const GlobalOrder all(mesh_->comm, mesh_->node_ids, mesh_->global_nodes);
   file.array(name() + ".displacement", all, displacement_, 3);
   file.array(name() + ".last_increment", all, increment_, 1);
+  if (contact_ && contact_->needs_pressure() && file.has(name() + ".contact_pressure")) {
+    file.array(name() + ".contact_pressure", all, pressure_, 1);
+    pressed_ = file.integer(name() + ".contact_pressure_known") != 0;
+  }
   last_dt_ = file.scalar(name() + ".last_dt");
   next_step_ = file.scalar(name() + ".next_step");
   multigrid_chosen_ =
@@ -168,7 +182,7 @@ std::int64_t Thermal::memory() const {
        {&rate_, &first_rate_, &mid_rate_, &target_, &start_rise_, &start_energy_, &given_, &received_})
     values += v->size();
   return static_cast<std::int64_t>(values * sizeof(double)) + matrix_.memory() + solver_.memory() + content_.memory() +
-         (multigrid_ ? multigrid_->memory() : 0);
+         (multigrid_ ? multigrid_->memory() : 0) + (contact_ ? contact_->memory() : 0);
 }
 
 }  // namespace tenon

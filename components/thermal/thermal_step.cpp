@@ -12,6 +12,7 @@ namespace tenon {
 
 void Thermal::advance(double dt) {
   refresh_geometry();
+  follow_contacts(is_explicit() ? time() : time() + 0.5 * dt);
   if (goes_by_stages())
     advance_by_stages(dt);
   else
@@ -121,7 +122,7 @@ void Thermal::apply_increment() {
 void Thermal::show_temperatures() {
   for (std::size_t k = 0; k < rise_.size(); ++k)
     temperature_[static_cast<std::size_t>(mesh_->owned_nodes[k])] = initial_[k] + rise_[k];
-  mesh_->node_halo.forward(std::span<const double>(temperature_), std::span<double>(temperature_));
+  matrix_.halo().forward(std::span<const double>(temperature_), std::span<double>(temperature_));
 }
 
 void Thermal::throw_if_not_finite() const {

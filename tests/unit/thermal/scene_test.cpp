@@ -17,7 +17,7 @@ Read read(const std::string& text, ElementKind foot = ElementKind::hex8) {
   mesh.source = "bar.msh";
   mesh.blocks = {{"bar", 1, 10, ElementKind::tet4}, {"foot", 2, 5, foot}};
   mesh.node_sets = {{"top", 1, 3}, {"bottom", 2, 3}};
-  mesh.side_sets = {{"skin", 1, 9}, {"nothing", 2, 0}};
+  mesh.side_sets = {{"skin", 1, 9}, {"nothing", 2, 0}, {"lid", 3, 4}};
   MaterialDescription copper{"copper", 8960, {}, {}, ThermalProperties{386, 383, 300, 0.9}, {}};
   MaterialDescription wood{"wood", 500, {}, {}, {}, {}};
   Read result;
@@ -64,6 +64,41 @@ sources:
   EXPECT_EQ(o.fluxes.at(0).flux(0), 1000);
   EXPECT_EQ(o.convection.at(0).coefficient, 25);
   EXPECT_EQ(o.sources.at(0).power(3), 1e6);
+}
+
+TEST(ThermalScene, ReadsContact) {
+  const Read r = read(R"(
+mesh: fine
+material: copper
+contact_conductance:
+  - {first: skin, second: lid, conductance: {table: [[0 s, 1 kW/(m^2 K)], [1 s, 3 kW/(m^2 K)]]}, reference_pressure: 2 MPa,
+     exponent: 0.5, gap_conductivity: 0.03 W/(m K), least_gap: 1 um, greatest_gap: 1 mm, touching_gap: 10 um}
+  - {first: lid, second: skin, conductance_over_pressure: [[0 MPa, 100 W/(m^2 K)], [1 MPa, 300 W/(m^2 K)]]}
+)");
+  ASSERT_FALSE(r.diagnostics.any()) << r.diagnostics.errors().front();
+  ASSERT_EQ(r.options.contacts.size(), 2u);
+  const ThermalContact& c = r.options.contacts[0];
+  EXPECT_EQ(c.first + c.second, "skinlid");
+  EXPECT_NEAR(c.conductance(0.5), 2000, 1e-9);
+  EXPECT_EQ(c.reference_pressure, 2e6);
+  EXPECT_EQ(c.exponent, 0.5);
+  EXPECT_EQ(c.gap_conductivity, 0.03);
+  EXPECT_NEAR(c.least_gap, 1e-6, 1e-18);
+  EXPECT_NEAR(c.greatest_gap, 1e-3, 1e-15);
+  EXPECT_NEAR(c.touching_gap.value(), 1e-5, 1e-17);
+  EXPECT_NEAR((*r.options.contacts[1].over_pressure)(0.25e6), 150, 1e-9);
+}
+
+TEST(ThermalScene, RefusesContactThatMeansNothing) {
+  for (const auto& [entry, message] : {std::pair{"{first: skin, second: lid}", "nothing passes"},
+                                       {"{first: skin, second: skin, conductance: 5 W/(m^2 K)}", "also 'first'"},
+                                       {"{first: skin, second: lid, conductance: -5 W/(m^2 K)}", "0 or more"},
+                                       {"{first: skin, second: lid, gap_conductivity: 1 W/(m K)}", "without"},
+                                       {"{first: ski, second: lid, conductance: 5 W/(m^2 K)}", "ski"}}) {
+    const Read r = read("mesh: fine\nmaterial: copper\ncontact_conductance: [" + std::string(entry) + "]\n");
+    ASSERT_TRUE(r.diagnostics.any()) << entry;
+    EXPECT_NE(r.diagnostics.errors().front().find(message), std::string::npos) << r.diagnostics.errors().front();
+  }
 }
 
 TEST(ThermalScene, ReadsTheAdaptiveStepperAndRadiation) {
