@@ -2,6 +2,7 @@
 #include "components/thermal/conduction_matrix.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace tenon::thermal {
 namespace {
@@ -72,6 +73,11 @@ void ConductionMatrix::extend(const Directory& owners, std::vector<GlobalId> bey
     index.push_back(entry.index);
   }
   halo_ = ExchangePlan::from_owners(mesh_.comm, owner, index, into, "thermal contact halo");
+  std::vector<std::size_t> order(into.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&owner](std::size_t i) { return owner[i]; });
+  arrivals_.clear();
+  for (const std::size_t i : order) arrivals_.push_back(into[i]);
   make_pattern(extra);
   places_.clear();
   first_place_.clear();

@@ -45,6 +45,8 @@ class ConductionMatrix {
   std::span<const GlobalId> beyond() const { return beyond_; }
   /// Refreshes everything in such a vector that is not owned.
   const ExchangePlan& halo() const { return halo_; }
+  /// The columns that it brings in, in the order of arrival; of an extended matrix only.
+  std::span<const LocalIndex> arrivals() const { return arrivals_; }
   /// Position of an entry among the values; no_index if another rank has that row. The entry must exist.
   LocalIndex place(LocalIndex i, LocalIndex j) const;
   /// Local. Adds to one value, W/K, between `assemble` and `finish`.
@@ -99,6 +101,7 @@ class ConductionMatrix {
   std::vector<ElementTable> tables_;        // of blocks
   std::vector<GlobalId> beyond_;
   ExchangePlan halo_;
+  std::vector<LocalIndex> arrivals_;
   std::vector<LocalIndex> offsets_, columns_;
   std::vector<double> values_, diagonal_;
   std::vector<LocalIndex> row_of_node_;                         // no_index for ghosts

@@ -125,7 +125,7 @@ void ContactConductance::each_link(const Use& use) const {
     for (std::size_t i = first_entry_[b]; i < first_entry_[b + 1]; ++i)
       for (std::size_t j = first_entry_[b]; j < first_entry_[b + 1]; ++j) {
         if (i == j) continue;
-        const double product = patches_.entries[i].coefficient * patches_.entries[j].coefficient;
+        const double product = coefficient_[i] * coefficient_[j];
         use(column_[i], places_[place++], weight_[b] * product);
       }
   }
@@ -156,11 +156,17 @@ double ContactConductance::power(std::size_t contact, std::span<const double> te
     if (patches_.patch[b].contact != static_cast<std::int64_t>(contact)) continue;
     double jump = 0;
     for (std::size_t i = first_entry_[b]; i < first_entry_[b + 1]; ++i)
-      jump += patches_.entries[i].coefficient * temperature[static_cast<std::size_t>(column_[i])];
+      jump += coefficient_[i] * temperature[static_cast<std::size_t>(column_[i])];
     into.add(weight_[b] * jump);
   }
   const double out_of_finer = mesh_.comm.sum(into);
   return pairs_[contact].first_is_finer ? out_of_finer : -out_of_finer;
+}
+
+ContactPatch ContactConductance::patch(std::size_t p) const {
+  const std::size_t first = first_entry_[p], count = first_entry_[p + 1] - first;
+  return {node_[p], std::span(column_).subspan(first, count), std::span(coefficient_).subspan(first, count),
+          weight_[p]};
 }
 
 std::int64_t ContactConductance::memory() const {
@@ -168,7 +174,7 @@ std::int64_t ContactConductance::memory() const {
     return static_cast<std::int64_t>(v.capacity() * sizeof(typename std::decay_t<decltype(v)>::value_type));
   };
   return bytes(points_) + bytes(patches_.patch) + bytes(patches_.counts) + bytes(patches_.entries) + bytes(shares_) +
-         bytes(weight_) + bytes(column_) + bytes(places_) + bytes(pattern_);
+         bytes(weight_) + bytes(column_) + bytes(coefficient_) + bytes(places_) + bytes(pattern_);
 }
 
 }  // namespace tenon::thermal

@@ -17,6 +17,14 @@ namespace tenon::thermal {
 /// Conductance of an interface, W/(m^2 K). `pressure` (Pa) counts where `pressed`: somebody says what it is.
 double conductance(const ThermalContact& contact, double time, double gap, bool touches, double pressure, bool pressed);
 
+/// A node b with the entries of its g_b, b itself among them.
+struct ContactPatch {
+  LocalIndex node;  ///< column of b
+  std::span<const LocalIndex> columns;
+  std::span<const double> coefficients;
+  double weight;  ///< H_b, W/K
+};
+
 /// Each node b of the finer of two surfaces exchanges heat with the nodes a of the other one that lie opposite,
 ///   Q_b = H_b (T_b - sum of m_ba T_a),   H_b = integral of h N_b,   m_ba = integral of psi_b N_a / integral of psi_b,
 /// where psi are the shape functions dual to N on the sides of b [Woh00], integrated by points that are projected to
@@ -47,6 +55,17 @@ class ContactConductance {
   /// Collective. Heat that passes from `first` to `second` of a contact, W. Temperatures of the width of the matrix.
   double power(std::size_t contact, std::span<const double> temperature) const;
   std::int64_t memory() const;
+
+  /// Those whose b is owned come first, then those that owners of b have sent, by `plan`, to the owners of nodes
+  /// across.
+  std::size_t patches() const { return patches_.patch.size(); }
+  std::size_t owned_patches() const { return owned_patches_; }
+  ContactPatch patch(std::size_t p) const;
+  /// By contact, then b.
+  std::span<const std::size_t> order() const { return order_; }
+  const ExchangePlan& plan() const { return plan_; }
+  /// Collective.
+  bool any_of_all_ranks(bool mine) const { return mesh_.comm.any(mine); }
 
  private:
   struct Pair {
@@ -111,10 +130,12 @@ class ContactConductance {
   std::vector<std::size_t> first_share_;  // of owned patches
   std::vector<Share> shares_;
   std::vector<std::size_t> first_entry_;
-  std::vector<std::size_t> order_;  // by contact, then node
-  std::vector<double> weight_;      // H_b, W/K
-  std::vector<LocalIndex> column_;  // of each entry
-  std::vector<LocalIndex> places_;  // in the matrix, of each ordered pair of entries of each patch
+  std::vector<std::size_t> order_;   // by contact, then node
+  std::vector<double> weight_;       // H_b, W/K
+  std::vector<LocalIndex> column_;   // of each entry
+  std::vector<double> coefficient_;  // of each entry
+  std::vector<LocalIndex> node_;     // column of b
+  std::vector<LocalIndex> places_;   // in the matrix, of each ordered pair of entries of each patch
   std::vector<std::size_t> first_place_;
   ExchangePlan plan_;  // of patches to the ranks that own a node across
   std::vector<ConductionMatrix::ExtraEntry> pattern_;

@@ -218,8 +218,12 @@ bool ContactConductance::extend(ConductionMatrix& matrix) {
     if (n != no_index) return n;
     return mesh_.nodes() + static_cast<LocalIndex>(std::ranges::lower_bound(beyond, id) - beyond.begin());
   };
-  column_.clear();
-  for (const Entry& entry : patches_.entries) column_.push_back(column(entry.id));
+  column_.clear(), coefficient_.clear(), node_.clear();
+  for (const Entry& entry : patches_.entries) {
+    column_.push_back(column(entry.id));
+    coefficient_.push_back(entry.coefficient);
+  }
+  for (const Patch& patch : patches_.patch) node_.push_back(column(patch.node));
   for (Point& p : pressed)
     for (std::size_t a = 0; a < static_cast<std::size_t>(p.opposite.count); ++a)
       p.across[a] = column(p.opposite.nodes[a]);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 namespace tenon::thermal {
 namespace {
@@ -65,14 +67,16 @@ Multigrid::Multigrid(const Mesh& mesh) : mesh_(mesh), grid_(auxiliary_grid(mesh)
   product_ = rest_;
 }
 
-void Multigrid::build(const HeatSystem& system) {
+void Multigrid::build(const HeatSystem& system, const ContactConductance* contact) {
+  if (contact) ties_.build(system, *contact);
   links_.assign(system.matrix.values().begin(), system.matrix.values().end());
   if (!built_) lay_out(system);
   const int exponent = galerkin(system);
   if (!built_) lay_out_sums();
   add_up(exponent);
   levels_.fill(whole_);
-  smoother_ = Chebyshev(bound(system));
+  bound_ = bound(system);
+  smoother_ = Chebyshev(bound_);
   built_ = true;
 }
 
@@ -102,6 +106,8 @@ void Multigrid::lay_out(const HeatSystem& system) {
   places.resize(change_.size());
   system.matrix.halo().forward(std::span<const Vec3>(places), std::span(places));
   interpolate(places, free, number);
+  if (ties_.any()) follow_ties(system);
+  make_restriction();
   coarse_.assign(points_.size(), 0.0);
   coarse_solution_ = coarse_;
   exact_.assign(points_.size(), 0);
@@ -112,8 +118,6 @@ void Multigrid::interpolate(std::span<const Vec3> places, std::span<const double
                             std::span<const LocalIndex> number) {
   interpolation_ = {};
   interpolation_.columns = static_cast<LocalIndex>(points_.size());
-  SparseMatrix<float> owned;
-  owned.columns = interpolation_.columns;
   for (std::size_t n = 0; n < free.size(); ++n) {
     if (free[n] > 0)
       grid_.hats(places[n], [&](LocalIndex p, double w) {
@@ -121,6 +125,57 @@ void Multigrid::interpolate(std::span<const Vec3> places, std::span<const double
       });
     interpolation_.end_row();
   }
+}
+
+// A node that is tied takes what the nodes across take: rows of theirs instead of its own, also where it is a ghost.
+void Multigrid::follow_ties(const HeatSystem& system) {
+  struct Entry {
+    LocalIndex point;
+    float weight;
+  };
+  std::map<LocalIndex, std::map<LocalIndex, double>> owned;
+  ties_.each_tie([&](LocalIndex b, LocalIndex a, double weight) {
+    std::map<LocalIndex, double>& row = owned[b];
+    for (std::size_t p = interpolation_.begin(a); p < interpolation_.end(a); ++p)
+      row[interpolation_.column[p]] += weight * static_cast<double>(interpolation_.value[p]);
+  });
+  std::map<LocalIndex, std::vector<Entry>> rows;
+  std::vector<LocalIndex> counts(static_cast<std::size_t>(mesh_.nodes()), 0);
+  std::vector<Entry> entries;
+  for (const auto& [b, row] : owned) {
+    for (const auto& [point, weight] : row) rows[b].push_back({point, static_cast<float>(weight)});
+    counts[static_cast<std::size_t>(b)] = static_cast<LocalIndex>(rows[b].size());
+    entries.insert(entries.end(), rows[b].begin(), rows[b].end());
+  }
+  const auto theirs =
+      system.matrix.halo().forward_varying(std::span<const LocalIndex>(counts), std::span<const Entry>(entries));
+  auto next = theirs.values.begin();
+  for (std::size_t i = 0; i < theirs.counts.size(); ++i) {
+    if (theirs.counts[i] > 0) rows[system.matrix.arrivals()[i]].assign(next, next + theirs.counts[i]);
+    next += theirs.counts[i];
+  }
+  const SparseMatrix<float> plain = std::exchange(interpolation_, {});
+  interpolation_.columns = plain.columns;
+  std::vector<std::int64_t> nodes(points_.size(), 0);
+  for (LocalIndex n = 0; n < plain.rows(); ++n) {
+    if (const auto found = rows.find(n); found != rows.end()) {
+      for (const Entry& entry : found->second) interpolation_.add(entry.point, entry.weight);
+    } else {
+      for (std::size_t p = plain.begin(n); p < plain.end(n); ++p) interpolation_.add(plain.column[p], plain.value[p]);
+    }
+    interpolation_.end_row();
+    for (std::size_t p = interpolation_.begin(n); n < mesh_.nodes() && mesh_.owns_node(n) && p < interpolation_.end(n);
+         ++p)
+      ++nodes[static_cast<std::size_t>(interpolation_.column[p])];
+  }
+  mesh_.comm.sum(nodes);
+  constexpr auto weight = static_cast<std::int64_t>(ContactTies::greatest_weight * ContactTies::greatest_weight);
+  for (const std::int64_t count : nodes) most_nodes_ = std::max(most_nodes_, weight * count);
+}
+
+void Multigrid::make_restriction() {
+  SparseMatrix<float> owned;
+  owned.columns = interpolation_.columns;
   for (const LocalIndex n : mesh_.owned_nodes) {
     for (std::size_t p = interpolation_.begin(n); p < interpolation_.end(n); ++p)
       owned.add(interpolation_.column[p], interpolation_.value[p]);
@@ -274,19 +329,31 @@ void Multigrid::correct(std::span<double> z) {
   }
 }
 
+// What is left of a held row is none of ours: its column of the restriction is empty, but its size would count.
+void Multigrid::find_rest(const HeatSystem& system, std::span<const double> r, std::span<const double> z) {
+  MeshMatrix{mesh_, system, links_}.multiply_here(z, product_);
+  for (std::size_t k = 0; k < rest_.size(); ++k) rest_[k] = system.inverse_diagonal[k] > 0 ? r[k] - product_[k] : 0.0;
+}
+
 void Multigrid::apply(const HeatSystem& system, std::span<const double> r, std::span<double> z) {
   smooth_mesh(system, r, z, true);
   system.matrix.halo().forward(std::span<const double>(z), z);
-  MeshMatrix{mesh_, system, links_}.multiply_here(z, product_);
-  // What is left of a held row is none of ours: its column of the restriction is empty, but its size would count.
-  for (std::size_t k = 0; k < rest_.size(); ++k) rest_[k] = system.inverse_diagonal[k] > 0 ? r[k] - product_[k] : 0.0;
+  find_rest(system, r, z);
+  if (ties_.any()) {
+    ties_.smooth(bound_, rest_, z);
+    find_rest(system, r, z);
+  }
   correct(z);
+  if (ties_.any()) {
+    find_rest(system, r, z);
+    ties_.smooth(bound_, rest_, z);
+  }
   smooth_mesh(system, r, z, false);
 }
 
 std::int64_t Multigrid::memory() const {
   return interpolation_.memory() + restriction_.memory() + times_interpolation_.memory() + upper_.memory() +
-         whole_.memory() + levels_.memory() +
+         whole_.memory() + levels_.memory() + ties_.memory() +
          4 * static_cast<std::int64_t>(place_in_sums_.size() + place_of_whole_.size()) +
          static_cast<std::int64_t>(
              (links_.size() / 2 + sums_.size() + rest_.size() + product_.size() + change_.size() + 3 * coarse_.size()) *

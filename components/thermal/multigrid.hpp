@@ -7,6 +7,7 @@
 
 #include "components/thermal/auxiliary_grid.hpp"
 #include "components/thermal/coarse_levels.hpp"
+#include "components/thermal/contact_ties.hpp"
 #include "components/thermal/heat_system.hpp"
 
 namespace tenon::thermal {
@@ -22,7 +23,8 @@ class Multigrid {
   /// Collective. Prepares for this system; must be repeated when the matrix has changed. Always of the same mesh,
   /// pattern and the same held nodes, so that all but the first time only numbers are filled in and nothing is
   /// allocated. A system with another factor, up to twice or half, may then be preconditioned too.
-  void build(const HeatSystem& system);
+  /// With `contact`, what it ties together is smoothed together; then only the first time.
+  void build(const HeatSystem& system, const ContactConductance* contact = nullptr);
   bool built() const { return built_; }
   /// Collective. z (width of the matrix; ghosts are not refreshed) = M^-1 r. Allocates nothing.
   void apply(const HeatSystem& system, std::span<const double> r, std::span<double> z);
@@ -31,18 +33,21 @@ class Multigrid {
  private:
   void lay_out(const HeatSystem& system);
   void interpolate(std::span<const Vec3> places, std::span<const double> free, std::span<const LocalIndex> number);
+  void follow_ties(const HeatSystem& system);
+  void make_restriction();
   void lay_out_sums();
   double times_interpolation(const HeatSystem& system);
   int galerkin(const HeatSystem& system);
   void add_up(int exponent);
   double bound(const HeatSystem& system);
   void smooth_mesh(const HeatSystem& system, std::span<const double> r, std::span<double> z, bool from_zero);
+  void find_rest(const HeatSystem& system, std::span<const double> r, std::span<const double> z);
   void correct(std::span<double> z);
 
   const Mesh& mesh_;
   RectilinearGrid grid_;
   bool built_ = false;
-  std::int64_t most_nodes_ = 1;        // that one hat holds, over all ranks
+  std::int64_t most_nodes_ = 1;        // that one hat holds, over all ranks, each as often as its greatest weight says
   SparseMatrix<float> interpolation_;  // from the points in use to all columns
   SparseMatrix<float> restriction_;    // from the owned nodes (rows) to the points in use
   std::vector<float> links_;           // off-diagonal entries of K
@@ -57,7 +62,9 @@ class Multigrid {
   std::vector<std::int64_t> sums_;
   SparseMatrix<double> whole_;
 
+  ContactTies ties_;
   CoarseLevels levels_;
+  double bound_ = 1;  // of the spectrum of the matrix over its diagonal
   Chebyshev smoother_;
   std::vector<double> rest_, product_;  // rows
   std::vector<double> change_;          // of the width of the matrix

@@ -43,9 +43,10 @@ thermal::Multigrid& Thermal::multigrid_for(const thermal::HeatSystem& system) {
   const double ratio = multigrid_factor_ > 0 ? system.factor / multigrid_factor_ : 0;
   const bool other_step = !(ratio >= 0.5 && ratio <= 2);
   if (multigrid_->built() && !multigrid_stale_ && !other_step) return *multigrid_;
+  if (contact_) multigrid_ = std::make_unique<thermal::Multigrid>(*mesh_);  // what is tied may have changed
   if (is_nonlinear() || multigrid_stale_ || other_step) {
     multigrid_factor_ = system.factor;
-    multigrid_->build(system);
+    multigrid_->build(system, contact_.get());
   } else {  // after a restart: as it was built then
     std::vector<double> diagonal(capacity_.size()), inverse(capacity_.size(), 0.0);
     for (std::size_t k = 0; k < diagonal.size(); ++k) {
@@ -53,7 +54,7 @@ thermal::Multigrid& Thermal::multigrid_for(const thermal::HeatSystem& system) {
       diagonal[k] = stored + multigrid_factor_ * (matrix_.diagonal()[k] + film_[k]);
       if (inverse_diagonal_[k] > 0) inverse[k] = 1 / diagonal[k];
     }
-    multigrid_->build({matrix_, multigrid_factor_, diagonal, inverse});
+    multigrid_->build({matrix_, multigrid_factor_, diagonal, inverse}, contact_.get());
   }
   multigrid_stale_ = false;
   return *multigrid_;

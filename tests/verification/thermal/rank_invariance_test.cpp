@@ -10,18 +10,19 @@
 namespace tenon::testing {
 namespace {
 
-void add_contact(ThermalOptions& o);
+void add_contact(ThermalOptions& o, double conductance);
 
 struct Case {
   std::string name;
   ThermalStepper stepper;
   BoxShape shape;
   bool warm = false, multigrid = false, contact = false;
+  double conductance = 0;  // of contact, W/(m^2 K); 0: two that vary
 
   ThermalOptions options() const {
     ThermalOptions o = warm ? all_loads_warm(stepper) : all_loads(stepper);
     if (multigrid) o.preconditioner = ThermalPreconditioner::multigrid;
-    if (contact) add_contact(o);
+    if (contact) add_contact(o, conductance);
     return o;
   }
   std::shared_ptr<const Mesh> mesh() const {
@@ -35,7 +36,7 @@ struct Case {
 
 /// Loads of the case on the first body; the second one lives on what passes, by two conductances over pressure and
 /// time.
-void add_contact(ThermalOptions& o) {
+void add_contact(ThermalOptions& o, double conductance) {
   for (ThermalBlock& block : o.blocks) block.block = "a_box";
   o.blocks.push_back({"b_box", 2700, 900, 200, 310});
   for (auto& entry : o.prescribed) entry.node_set = "a_" + entry.node_set;
@@ -46,6 +47,11 @@ void add_contact(ThermalOptions& o) {
   for (auto& source : o.sources) source.block = "a_" + source.block;
   ThermalContact contact;
   contact.first = "a_z_max", contact.second = "b_z_min";
+  if (conductance > 0) {
+    contact.conductance = TimeFunction::constant(conductance);
+    o.contacts = {contact};
+    return;
+  }
   contact.conductance = TimeFunction::table({{0, 300}, {200, 2000}, {400, 2000}});
   contact.reference_pressure = 1e6;
   o.contacts = {contact};
@@ -72,7 +78,9 @@ std::vector<Case> cases() {
           {"contact_explicit", ThermalStepper::explicit_euler, cube(3, false, 0.2), false, false, true},
           {"contact_backward", ThermalStepper::backward_euler, cube(5, true, 0.2), false, false, true},
           {"contact_tr_bdf2", ThermalStepper::tr_bdf2, cube(4, false, 0.2), false, true, true},
-          {"contact_steady", ThermalStepper::steady, cube(4, true, 0.2), true, true, true}};
+          {"contact_steady", ThermalStepper::steady, cube(4, true, 0.2), true, true, true},
+          {"contact_tied", ThermalStepper::backward_euler, cube(5, false, 0.2), false, true, true, 1e7},
+          {"contact_tied_tr_bdf2", ThermalStepper::tr_bdf2, cube(4, true, 0.2), false, true, true, 1e5}};
 }
 
 constexpr int steps = 16;
@@ -98,7 +106,7 @@ void press(Thermal& thermal, double pressure) {
 void run(const Case& c, Thermal& thermal, int first, int last) {
   for (int step = first; step < last; ++step) {
     if (step % 3 == 1) disturb(thermal, 0.002 * step);
-    if (c.contact && step % 5 == 2) press(thermal, 1e5 * step);
+    if (c.contact && c.conductance == 0 && step % 5 == 2) press(thermal, 1e5 * step);
     thermal.advance(std::min(thermal.time_step(), 40.0));
   }
 }
