@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which nodes and faces, and which edges, may meet in the next steps: a search that is kept while skins prove that it
+// misses nothing.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "components/contact/contact_options.hpp"
+#include "components/contact/contact_surfaces.hpp"
+
+namespace tenon::contact {
+
+/// Every node has a skin. Boxes of nodes, faces and sharp edges are grown by the skins of their nodes; pairs of boxes
+/// that overlap are candidates. As long as no node has moved farther than its skin from where it was, beside a motion
+/// that is common to all, no other pair can have met.
+class CandidateSearch {
+ public:
+  CandidateSearch(const Communicator& comm, const ContactSurfaces& surfaces, SearchDecomposition decomposition);
+
+  /// Collective. Finds candidates for steps of about `dt` from the present places; node velocities as the parties show
+  /// them.
+  void run(double dt);
+  /// Collective. How much of their skins the nodes have used up at the end of a step of length dt with the velocities
+  /// that the parties show now: up to 1 the candidates are still all. Infinite before the first search.
+  double used(double dt) const;
+  /// Local. A search is needed.
+  void forget() { sought_ = false; }
+  bool sought() const { return sought_; }
+  /// Local. Time has passed by a step of length dt (s).
+  void passed(double dt) { since_ += dt; }
+  /// Local. Skins of the next search, in terms of the usual ones: wider while nothing is near.
+  void widen(double by) { widening_ = by; }
+
+  /// Pairs on this rank, whoever they belong to: (node, face) and (edge, edge).
+  const std::vector<BoxPair>& node_faces() const { return node_faces_; }
+  const std::vector<BoxPair>& edge_edges() const { return edge_edges_; }
+  /// Edges that are sharp, as indices of ContactSurfaces::edges(): what the indices of edge_edges() count in.
+  const std::vector<LocalIndex>& sharp_edges() const { return sharp_; }
+  /// Of each of the sharp edges: mean outward normal of its faces; zero where both sides count.
+  const std::vector<Vec3>& outward() const { return outward_; }
+  /// Of nodes of this rank, m.
+  std::span<const double> skins() const { return skin_; }
+  /// Counted work of the last searches on this rank: box tests.
+  std::int64_t work() const { return face_search_.work().tests + edge_search_.work().tests; }
+  /// Velocity that all nodes have in common, m/s: their skins move with it. And the time since the search, s.
+  const Vec3& common() const { return common_; }
+  double since() const { return since_; }
+  std::int64_t memory() const;
+
+ private:
+  void choose_skins(double dt);
+  void make_boxes();
+  void find_sharp_edges();
+  Vec3 place(const SurfaceNode& node) const;
+  Vec3 velocity(const SurfaceNode& node) const;
+
+  Communicator comm_;
+  const ContactSurfaces& surfaces_;
+  BoxPairSearch face_search_, edge_search_;
+  /// Plane of a face, and its middle.
+  struct FacePlane {
+    Vec3 normal, centre;
+  };
+
+  bool sought_ = false;
+  double widening_ = 1;    // of skins, while nothing is near
+  Vec3 common_{};          // velocity that all share, m/s
+  double since_ = 0;       // time since the search, s
+  std::vector<Vec3> place_;  // of nodes, when sought
+  std::vector<double> skin_, corner_skin_, far_skin_, inverse_square_;
+  std::vector<FacePlane> planes_, edge_planes_;
+  std::vector<Box> node_boxes_, face_boxes_, edge_boxes_;
+  std::vector<LocalIndex> sharp_;
+  std::vector<Vec3> outward_;
+  std::vector<BoxPair> node_faces_, edge_edges_;
+};
+
+}  // namespace tenon::contact

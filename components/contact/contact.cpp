@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "components/contact/contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tenon {
+
+using namespace contact;
+
+void Contact::act(double time, double dt) {
+  ++steps_;
+  {
+    const ScopedTimer timer(*phases_.check);
+    used_ = search_.used(dt);
+  }
+  if (used_ > 1) {
+    search(dt);
+    used_ = search_.used(dt);
+  }
+  if (set_.any()) {
+    gather(time, dt);
+    find_constraints(time, dt);
+    any_constraint_ = comm_.any(!constraints_.empty());
+    if (any_constraint_) {
+      solve(dt);
+      book(dt);
+      send_back();
+    }
+    if (any_constraint_ || fields_filled_) fill_fields(dt);
+  } else {
+    any_constraint_ = false;
+    if (fields_filled_) clear_fields();
+  }
+  if (!any_constraint_) {
+    ++idle_steps_;
+    active_ = 0;
+    for (PairTotals& total : totals_)
+      for (ExactSum& force : total.force) force.clear();
+  }
+  if (!rigid_.empty()) move_rigid(time, dt);
+  search_.passed(dt);
+}
+
+void Contact::gather(double time, double dt) {
+  const ScopedTimer timer(*phases_.exchange);
+  bodies_.clear();
+  first_body_.clear();
+  for (ContactParty* party : parties_) {
+    first_body_.push_back(static_cast<std::int32_t>(bodies_.size()));
+    for (const ContactRigidBody& body : party->contact_rigid_bodies()) bodies_.push_back({body, {}});
+  }
+  for (const MovingSurface& surface : rigid_) {
+    if (!surface.is_free()) {
+      first_body_.push_back(-1);
+      continue;
+    }
+    first_body_.push_back(static_cast<std::int32_t>(bodies_.size()));
+    ContactRigidBody body;
+    body.inverse_mass.fill(1 / *surface.options().mass);
+    body.velocity = body.former_velocity = surface.velocity(time, dt);
+    bodies_.push_back({body, {}});
+  }
+  home_state_.resize(set_.busy().size());
+  std::vector<LocalIndex> nodes;
+  std::vector<Mobility> mobility;
+  std::size_t b = 0;
+  for (std::size_t p = 0; p < parties_.size(); ++p) {
+    nodes.clear();
+    const std::size_t first = b;
+    for (; b < set_.busy().size(); ++b) {
+      const SurfaceNode& node = surfaces_.nodes()[static_cast<std::size_t>(set_.busy()[b])];
+      if (node.party != static_cast<std::int32_t>(p)) break;
+      nodes.push_back(node.node);
+    }
+    mobility.resize(nodes.size());
+    parties_[p]->mobilities(nodes, mobility);
+    const std::span<const Vec3> x = parties_[p]->contact_positions(), v = parties_[p]->contact_velocities(),
+                                former = parties_[p]->former_velocities();
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const auto n = static_cast<std::size_t>(nodes[i]);
+      home_state_[first + i] = {x[n], v[n], former[i], mobility[i]};
+      if (mobility[i].body >= 0) home_state_[first + i].mobility.body += first_body_[p];
+    }
+  }
+  state_.resize(static_cast<std::size_t>(set_.nodes()));
+  set_.from_home().forward<NodeState>(home_state_, state_);
+  end_.resize(state_.size());
+  for (std::size_t n = 0; n < state_.size(); ++n) end_[n] = state_[n].place + dt * state_[n].velocity;
+}
+
+void Contact::solve(double dt) {
+  const ScopedTimer timer(*phases_.solve);
+  for (Constraint& q : constraints_) {
+    const PairMemory& memory = set_.pairs()[static_cast<std::size_t>(q.pair)].memory;
+    const double along = std::max(0.0, dot(memory.force, q.normal));
+    q.impulse = (dt * along) * q.normal;
+    if (q.static_coefficient > 0)
+      q.impulse = q.impulse + dt * (memory.force - dot(memory.force, q.normal) * q.normal);
+  }
+  const Enforcement::Report report = enforcement_.solve(constraints_, state_, bodies_);
+  iterations_ = report.iterations, iterations_total_ += report.iterations;
+  enforcement_work_ += static_cast<std::int64_t>(constraints_.size()) * report.iterations;
+  release();
+}
+
+// Pairs that pressed before and no longer do give back what their impact took.
+void Contact::release() {
+  released_.assign(constraints_.size(), 0.0);
+  bool any = false;
+  for (std::size_t k = 0; k < constraints_.size(); ++k) {
+    const Constraint& q = constraints_[k];
+    const PairMemory& memory = set_.pairs()[static_cast<std::size_t>(q.pair)].memory;
+    if (!(memory.energy > 0) || dot(q.impulse, q.normal) > 0) continue;
+    released_[k] = memory.energy;
+    any = true;
+  }
+  if (comm_.any(any)) enforcement_.release(constraints_, state_, bodies_, released_);
+}
+
+// The work of each pair by the velocities before the kick and after contact, which is what the parties book for their
+// nodes: what is not friction is stored, as long as it can be, or lost.
+void Contact::book(double dt) {
+  std::vector<Vec3> former(state_.size());
+  for (std::size_t n = 0; n < state_.size(); ++n) former[n] = state_[n].former;
+  std::vector<Body> bodies_before = bodies_, bodies_after = bodies_;
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    bodies_before[b].state.velocity = bodies_[b].state.former_velocity;
+    for (std::size_t c = 0; c < 3; ++c)
+      bodies_after[b].state.velocity[c] += bodies_[b].state.inverse_mass[c] * bodies_[b].impulse.linear[c];
+  }
+  active_ = 0;
+  slid_.resize(constraints_.size()), heat_.resize(constraints_.size());
+  for (PairTotals& total : totals_)
+    for (ExactSum& force : total.force) force.clear();
+  for (std::size_t k = 0; k < constraints_.size(); ++k) {
+    const Constraint& q = constraints_[k];
+    WorkingPair& pair = set_.pairs()[static_cast<std::size_t>(q.pair)];
+    PairMemory& memory = pair.memory;
+    const Vec3 before = relative_velocity(q, former, bodies_before, q.former_surface_velocity);
+    const Vec3 after = relative_velocity(q, enforcement_.velocities(), bodies_after, q.surface_velocity);
+    const Vec3 mean = 0.5 * (before + after);
+    const double pressed = dot(q.impulse, q.normal);
+    const Vec3 across = q.impulse - pressed * q.normal;
+    const double normal_work = pressed * dot(q.normal, mean), friction = -dot(across, mean);
+    const double stored = memory.energy;
+    const bool is_released = released_[k] > 0;
+    memory.energy = is_released ? 0.0 : std::max(0.0, stored - normal_work);
+    memory.force = is_released ? Vec3{} : (1 / dt) * q.impulse;
+    const Vec3 way = memory.slip + dt * after;
+    memory.slip = q.sticks && pressed > 0 ? way - dot(way, q.normal) * q.normal : Vec3{};
+    slid_[k] = pressed > 0 ? dt * (after - dot(after, q.normal) * q.normal) : Vec3{};
+    heat_[k] = std::max(0.0, friction);
+    if (!pair.primary) continue;
+    dissipated_.add(-normal_work - (memory.energy - stored));
+    friction_.add(friction);
+    rigid_work_.add(dot(q.impulse, q.surface_velocity));
+    active_ += pressed > 0 ? 1 : 0;
+    const std::int32_t low = std::min(pair.first_surface, pair.second_surface),
+                       high = std::max(pair.first_surface, pair.second_surface);
+    for (PairTotals& total : totals_) {
+      if (total.first != low || total.second != high) continue;
+      const double sign = pair.first_surface == low ? 1 : -1;
+      for (std::size_t c = 0; c < 3; ++c) {
+        total.force[c].add(sign * q.impulse[c] / dt);
+        total.impulse[c].add(sign * q.impulse[c]);
+      }
+      total.friction_work.add(friction);
+    }
+  }
+}
+
+void Contact::send_back() {
+  const ScopedTimer timer(*phases_.exchange);
+  home_impulse_.assign(set_.busy().size(), Vec3{});
+  set_.results().reverse<Vec3>(enforcement_.impulses(), home_impulse_);
+  std::vector<LocalIndex> nodes;
+  std::size_t b = 0;
+  std::vector<BodyImpulse> impulses;
+  std::vector<Vec3> free;
+  for (std::size_t p = 0; p < parties_.size(); ++p) {
+    nodes.clear(), impulses.clear(), free.clear();
+    for (; b < set_.busy().size(); ++b) {
+      const SurfaceNode& node = surfaces_.nodes()[static_cast<std::size_t>(set_.busy()[b])];
+      if (node.party != static_cast<std::int32_t>(p)) break;
+      if (home_state_[b].mobility.body >= 0 || home_impulse_[b] == Vec3{}) continue;
+      nodes.push_back(node.node);
+      free.push_back(home_impulse_[b]);
+    }
+    const auto bodies = static_cast<std::size_t>(
+        (p + 1 < parties_.size() ? first_body_[p + 1] : static_cast<std::int32_t>(party_bodies())) - first_body_[p]);
+    for (std::size_t i = 0; i < bodies; ++i)
+      impulses.push_back(bodies_[static_cast<std::size_t>(first_body_[p]) + i].impulse);
+    parties_[p]->push(nodes, free, impulses);
+  }
+}
+
+std::int32_t Contact::party_bodies() const {
+  for (std::size_t r = 0; r < rigid_.size(); ++r)
+    if (first_body_[parties_.size() + r] >= 0) return first_body_[parties_.size() + r];
+  return static_cast<std::int32_t>(bodies_.size());
+}
+
+void Contact::move_rigid(double time, double dt) {
+  for (std::size_t r = 0; r < rigid_.size(); ++r) {
+    Vec3 velocity = rigid_[r].velocity(time, dt);
+    if (rigid_[r].is_free() && any_constraint_) {
+      const Body& body = bodies_[static_cast<std::size_t>(first_body_[parties_.size() + r])];
+      for (std::size_t c = 0; c < 3; ++c) velocity[c] += body.state.inverse_mass[c] * body.impulse.linear[c];
+    }
+    rigid_[r].move(velocity, time, dt);
+  }
+}
+
+}  // namespace tenon

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which pairs can meet in a step, and the constraints that they make.
+#include <algorithm>
+#include <cmath>
+
+#include "components/contact/contact.hpp"
+#include "components/contact_geometry/choose_touches.hpp"
+#include "components/contact_geometry/edge_touch.hpp"
+
+namespace tenon {
+
+using namespace contact;
+
+namespace {
+
+// Of what is found to overlap in a step: gone in some ten steps, so that no node is shot out.
+constexpr double removal_rate = 0.1;
+// Of what friction failed to hold: likewise.
+constexpr double return_rate = 0.1;
+
+Vec3 tangential(const Vec3& a, const Vec3& normal) {
+  return a - dot(a, normal) * normal;
+}
+
+}  // namespace
+
+void Contact::find_constraints(double time, double dt) {
+  const ScopedTimer timer(*phases_.touch);
+  constraints_.clear();
+  std::vector<WorkingPair>& pairs = set_.pairs();
+  constraint_of_pair_.assign(pairs.size(), -1);
+  for (std::size_t begin = 0, end = 0; begin < pairs.size(); begin = end) {
+    end = begin + 1;
+    if (pairs[begin].key.kind == 0) {
+      while (end < pairs.size() && pairs[end].key.kind == 0 && pairs[end].key.ids[0] == pairs[begin].key.ids[0]) ++end;
+      touch_faces(begin, end, dt);
+    } else if (pairs[begin].key.kind == 1) {
+      touch_rigid(begin, time, dt);
+    } else {
+      touch_edges(begin, dt);
+    }
+  }
+}
+
+// All candidate faces of a node: from those that it can touch, those that matter.
+void Contact::touch_faces(std::size_t begin, std::size_t end, double dt) {
+  std::vector<WorkingPair>& pairs = set_.pairs();
+  const auto n = static_cast<std::size_t>(pairs[begin].node[0]);
+  const std::size_t first_constraint = constraints_.size();
+  touches_.clear(), touch_nodes_.clear(), touch_ids_.clear(), touch_pairs_.clear();
+  for (std::size_t q = begin; q < end; ++q) {
+    const WorkingPair& pair = pairs[q];
+    FaceShape start{pair.nodes - 1, {}}, finish{pair.nodes - 1, {}};
+    std::array<GlobalId, 4> ids{no_id, no_id, no_id, no_id};
+    for (std::int32_t k = 1; k < pair.nodes; ++k) {
+      const auto corner = static_cast<std::size_t>(pair.node[static_cast<std::size_t>(k)]);
+      start.x[static_cast<std::size_t>(k - 1)] = state_[corner].place;
+      finish.x[static_cast<std::size_t>(k - 1)] = end_[corner];
+      ids[static_cast<std::size_t>(k - 1)] = set_.id(static_cast<LocalIndex>(corner));
+    }
+    Touch touch;
+    if (!touch_face(state_[n].place, end_[n], start, finish, pair.clearance, pair.depth, pair.two_sided, pair.margin,
+                    touch))
+      continue;
+    touches_.push_back(touch), touch_nodes_.push_back(ids), touch_ids_.push_back(pair.key.ids[1]);
+    touch_pairs_.push_back(q);
+  }
+  if (!touches_.empty()) {
+    std::array<Choice, most_touches> chosen;
+    const int count = choose_touches(touches_, touch_nodes_, touch_ids_, chosen);
+    for (int k = 0; k < count; ++k) {
+      const Choice& choice = chosen[static_cast<std::size_t>(k)];
+      add_constraint(touch_pairs_[static_cast<std::size_t>(choice.candidate)], &choice.touch, nullptr, nullptr, dt);
+    }
+  }
+  hand_over(begin, end, first_constraint);
+}
+
+void Contact::touch_edges(std::size_t q, double dt) {
+  const WorkingPair& pair = set_.pairs()[q];
+  std::array<EdgeShape, 4> edge;  // first at start and end, second likewise
+  for (std::size_t k = 0; k < 4; ++k) {
+    const auto n = static_cast<std::size_t>(pair.node[k]);
+    edge[k < 2 ? 0 : 2].x[k % 2] = state_[n].place;
+    edge[k < 2 ? 1 : 3].x[k % 2] = end_[n];
+  }
+  EdgeTouch touch;
+  if (contact::touch_edges(edge[0], edge[1], edge[2], edge[3], pair.first_outward, pair.second_outward, pair.clearance,
+                           pair.depth, pair.margin, touch))
+    add_constraint(q, nullptr, &touch, nullptr, dt);
+  hand_over(q, q + 1, constraint_of_pair_[q] < 0 ? constraints_.size() : constraints_.size() - 1);
+}
+
+void Contact::touch_rigid(std::size_t q, double time, double dt) {
+  const WorkingPair& pair = set_.pairs()[q];
+  const auto n = static_cast<std::size_t>(pair.node[0]);
+  const MovingSurface& surface = rigid_[static_cast<std::size_t>(pair.key.ids[1])];
+  RigidTouch touch;
+  if (surface.touch(state_[n].place, end_[n], surface.velocity(time, dt), dt, pair.clearance, pair.margin, touch)) {
+    add_constraint(q, nullptr, nullptr, &touch, dt);
+    Constraint& constraint = constraints_.back();
+    constraint.body = first_body_[parties_.size() + static_cast<std::size_t>(pair.key.ids[1])];
+    if (constraint.body < 0) constraint.surface_velocity = surface.velocity(time, dt);
+    constraint.former_surface_velocity = constraint.surface_velocity;
+  }
+  hand_over(q, q + 1, constraint_of_pair_[q] < 0 ? constraints_.size() : constraints_.size() - 1);
+}
+
+void Contact::add_constraint(std::size_t q, const Touch* face, const EdgeTouch* edges, const RigidTouch* rigid,
+                             double dt) {
+  const WorkingPair& pair = set_.pairs()[q];
+  const double gap = face ? face->gap : edges ? edges->gap : rigid->gap;
+  const double end_gap = face ? face->end_gap : edges ? edges->end_gap : rigid->end_gap;
+  if (end_gap > 0 && pair.memory.empty()) return;  // near, no more
+  Constraint c;
+  c.pair = static_cast<std::int32_t>(q), c.nodes = pair.nodes, c.node = pair.node;
+  c.gap = gap;
+  std::size_t support = 0;
+  if (face) {
+    c.normal = face->normal, c.c[0] = 1;
+    for (std::size_t k = 1; k < static_cast<std::size_t>(pair.nodes); ++k) c.c[k] = -face->weights[k - 1];
+    support = 1;
+  } else if (edges) {
+    c.normal = edges->normal;
+    c.c = {1 - edges->first, edges->first, edges->second - 1, -edges->second, 0};
+  } else {
+    c.normal = rigid->normal, c.c[0] = 1;
+  }
+  if (!rigid) balance_moments(c, state_, support);
+  c.target = gap >= 0 ? -gap / dt : -removal_rate * gap / dt;
+  const CoulombFriction& friction =
+      rules_[static_cast<std::size_t>(pair.first_surface) * static_cast<std::size_t>(surface_count_) +
+             static_cast<std::size_t>(pair.second_surface)]
+          .friction;
+  c.static_coefficient = friction.static_coefficient, c.kinetic_coefficient = friction.kinetic_coefficient;
+  if (c.static_coefficient > 0) c.tangent_target = (-return_rate / dt) * tangential(pair.memory.slip, c.normal);
+  constraint_of_pair_[q] = static_cast<std::int32_t>(constraints_.size());
+  constraints_.push_back(c);
+}
+
+// A node that slides from face to face takes along what its pair remembers; what no pair takes over is lost. Then the
+// impulse of the step before is the first guess.
+void Contact::hand_over(std::size_t begin, std::size_t end, std::size_t first_constraint) {
+  std::vector<WorkingPair>& pairs = set_.pairs();
+  for (std::size_t q = begin; q < end; ++q) {
+    PairMemory& memory = pairs[q].memory;
+    if (constraint_of_pair_[q] >= 0 || memory.empty()) continue;
+    for (std::size_t k = first_constraint; k < constraints_.size(); ++k) {
+      WorkingPair& heir = pairs[static_cast<std::size_t>(constraints_[k].pair)];
+      bool meet = false;
+      for (std::int32_t a = 1; a < pairs[q].nodes; ++a)
+        for (std::int32_t b = 1; b < heir.nodes; ++b)
+          meet = meet || pairs[q].node[static_cast<std::size_t>(a)] == heir.node[static_cast<std::size_t>(b)];
+      if (!meet) continue;
+      heir.memory.force = heir.memory.force + memory.force;
+      heir.memory.slip = heir.memory.slip + memory.slip;
+      heir.memory.energy += memory.energy;
+      memory = {};
+      break;
+    }
+    if (memory.energy != 0 && pairs[q].primary) dissipated_.add(memory.energy);
+    memory = {};
+  }
+}
+
+}  // namespace tenon

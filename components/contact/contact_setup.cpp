@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What contact makes of its options before the first step.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "components/contact/contact.hpp"
+#include "components/contact_geometry/closest_point.hpp"
+
+namespace tenon {
+
+using namespace contact;
+
+namespace {
+
+std::vector<ContactParty*> parties_of(const std::vector<Component*>& components) {
+  std::vector<ContactParty*> parties;
+  for (Component* component : components) {
+    ContactParty* party = component->contact_party();
+    if (!party)
+      throw Error(ExitCode::usage, fmt::format("contact: component '{}' ({}) has no surface that could touch anything",
+                                               component->name(), component->type()));
+    parties.push_back(party);
+  }
+  if (parties.empty())
+    throw Error(ExitCode::usage, "contact: the scene has no component that could touch anything; leave `contact` out");
+  return parties;
+}
+
+}  // namespace
+
+Contact::Contact(std::string name, const Communicator& comm, std::vector<Component*> parties, ContactOptions options)
+    : Interaction(std::move(name)),
+      comm_(comm),
+      components_(std::move(parties)),
+      parties_(parties_of(components_)),
+      options_(std::move(options)),
+      surfaces_(comm, parties_),
+      search_(comm, surfaces_, options_.decomposition),
+      set_(comm, surfaces_, options_.decomposition),
+      enforcement_(comm, set_) {
+  for (const RigidSurface& surface : options_.rigid_surfaces) rigid_.emplace_back(surface);
+  read_pairs();
+}
+
+Contact::~Contact() = default;
+
+std::int32_t Contact::find_surface(const std::string& wanted) const {
+  for (std::int32_t s = 0; s < surface_count_; ++s)
+    if (surface_name(s) == wanted) return s;
+  std::string known;
+  for (std::int32_t s = 0; s < surface_count_; ++s) known += (s > 0 ? ", " : "") + surface_name(s);
+  throw Error(ExitCode::usage, fmt::format("{}: pairs: there is no surface '{}'; there are: {}", name(), wanted, known));
+}
+
+std::string Contact::surface_name(std::int32_t surface) const {
+  const std::size_t blocks = surfaces_.names().size(), s = static_cast<std::size_t>(surface);
+  return s < blocks ? surfaces_.names()[s] : rigid_[s - blocks].options().name;
+}
+
+void Contact::read_pairs() {
+  surface_count_ = static_cast<std::int32_t>(surfaces_.names().size() + rigid_.size());
+  const auto count = static_cast<std::size_t>(surface_count_);
+  rules_.assign(count * count, {false, options_.friction});
+  const auto total = [&](std::int32_t a, std::int32_t b) {
+    const auto same = [&](const PairTotals& t) { return t.first == a && t.second == b; };
+    if (std::ranges::none_of(totals_, same)) totals_.push_back({a, b, {}, {}, {}});
+  };
+  for (const ContactPair& pair : options_.pairs) {
+    const std::int32_t a = find_surface(pair.first), b = find_surface(pair.second);
+    for (const auto& [i, k] : {std::pair(a, b), std::pair(b, a)}) {
+      Rule& rule = rules_[static_cast<std::size_t>(i) * count + static_cast<std::size_t>(k)];
+      rule.ignore = pair.ignore;
+      if (pair.friction) rule.friction = *pair.friction;
+    }
+    if (!pair.ignore) total(std::min(a, b), std::max(a, b));
+  }
+  constexpr std::int32_t few = 3;  // more would drown the other columns of the history
+  for (std::int32_t a = 0; a < surface_count_ && surface_count_ <= few; ++a)
+    for (std::int32_t b = a; b < surface_count_; ++b)
+      if (b < static_cast<std::int32_t>(surfaces_.names().size()) ||
+          a < static_cast<std::int32_t>(surfaces_.names().size()))
+        if (!rules_[static_cast<std::size_t>(a) * count + static_cast<std::size_t>(b)].ignore) total(a, b);
+}
+
+void Contact::initialize() {
+  phases_ = {&phase("check"), &phase("search"), &phase("share out"),
+             &phase("touch"), &phase("solve"),  &phase("exchange")};
+  for (ContactParty* party : parties_) party->contact_fields();
+  if (!started_)
+    for (MovingSurface& surface : rigid_) surface.start(components_.front()->time());
+  surfaces_.build();
+  // Every rank has read all memories; each goes on with those of its own nodes.
+  std::erase_if(restored_, [&](const auto& item) { return surfaces_.find_node(item.first.ids[0]) == no_index; });
+  search(0);
+  if (!started_) settle_overlaps();
+  started_ = true;
+}
+
+bool Contact::admit(PairRecord& pair) const {
+  const auto count = static_cast<std::size_t>(surface_count_);
+  return !rules_[static_cast<std::size_t>(pair.first_surface) * count + static_cast<std::size_t>(pair.second_surface)]
+              .ignore;
+}
+
+}  // namespace tenon

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Impulses that keep surfaces apart at the end of a step: explicit Lagrange multipliers, found by iteration.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "components/contact/working_set.hpp"
+#include "framework/simulation/contact_party.hpp"
+
+namespace tenon::contact {
+
+/// A node in a step.
+struct NodeState {
+  Vec3 place{};     ///< m, at the start
+  Vec3 velocity{};  ///< m/s, by all other forces
+  Vec3 former{};    ///< m/s, before the kick
+  Mobility mobility;  ///< body: index in the bodies of all parties
+};
+
+/// Something rigid that several nodes, or a rigid surface, share.
+struct Body {
+  ContactRigidBody state;
+  BodyImpulse impulse;
+};
+
+/// One unilateral constraint of a step: normal . sum(c v) >= target, with Coulomb's law across it. The impulse p on the
+/// first side moves node i by w_i (c_i p + (turn p) x arm_i): the second term keeps the moment of all the impulses at
+/// the places of the start zero, for any normal and any offset.
+struct Constraint {
+  std::int32_t pair = -1;
+  std::int32_t nodes = 0;
+  std::array<LocalIndex, 5> node{};
+  std::array<double, 5> c{};
+  Vec3 normal{};
+  double gap = 0;          ///< m, at the start
+  double target = 0;       ///< m/s
+  Vec3 tangent_target{};   ///< m/s
+  double static_coefficient = 0, kinetic_coefficient = 0;
+  bool couple = false;
+  std::array<double, 9> turn{};  ///< rows
+  std::array<Vec3, 5> arm{};     ///< m
+  std::int32_t body = -1;        ///< on the second side, of a free rigid surface
+  Vec3 body_arm{};
+  Vec3 surface_velocity{}, former_surface_velocity{};  ///< of a rigid surface that moves as told
+
+  Vec3 impulse{};   ///< N s, on the first side
+  Vec3 extrapolated{};
+  double inverse = 0;  ///< kg: 1 / (bound on what an impulse changes)
+  bool sticks = false;
+};
+
+/// dv of a node by an impulse.
+inline Vec3 moved(const Mobility& m, const Vec3& p) {
+  const std::array<double, 6>& w = m.w;
+  return {w[0] * p[0] + w[3] * p[1] + w[5] * p[2], w[3] * p[0] + w[1] * p[1] + w[4] * p[2],
+          w[5] * p[0] + w[4] * p[1] + w[2] * p[2]};
+}
+
+/// Share of node i in an impulse on the first side.
+Vec3 share(const Constraint& constraint, std::size_t i, const Vec3& impulse);
+/// Relative velocity that is conjugate to the impulse: power = impulse . it.
+Vec3 relative_velocity(const Constraint& constraint, std::span<const Vec3> velocity, std::span<const Body> bodies,
+                       const Vec3& surface_velocity);
+/// Fills turn and arm so that the moment of the impulses about any point is zero. `support`: first node that takes
+/// part of the couple.
+void balance_moments(Constraint& constraint, std::span<const NodeState> nodes, std::size_t support);
+
+/// Minimises the kinetic energy of the change under the constraints by projected gradients with preconditioner and
+/// Nesterov's extrapolation [Nes83, MHNT15]. The preconditioner, k_q = sum_i |c_qi| s_i w_i with s_i = sum_q |c_qi|,
+/// bounds what all impulses together do (an l1-Jacobi bound), so the iteration converges for any masses and any number
+/// of constraints on a node. Sums of a node run over constraints in ascending order of their pairs: the same bits on
+/// any number of ranks.
+class Enforcement {
+ public:
+  Enforcement(const Communicator& comm, WorkingSet& set) : comm_(comm), set_(set) {}
+
+  struct Report {
+    int iterations = 0;
+    double residual = 0;  ///< m/s, left
+  };
+  /// Collective. Fills impulses (which may start from a guess); velocities() are then those after them.
+  Report solve(std::span<Constraint> constraints, std::span<const NodeState> nodes, std::vector<Body>& bodies);
+  /// Collective. Adds impulses to the chosen constraints that give each the energy (J) that it has stored, or less where
+  /// they share nodes. `energy` is zero for those that are not released.
+  void release(std::span<Constraint> constraints, std::span<const NodeState> nodes, std::vector<Body>& bodies,
+               std::span<const double> energy);
+
+  /// Local. visit(constraint, slot) for the constraints of a node that this rank sums for, ascending.
+  template <typename Visit>
+  void for_constraints_of(std::size_t node, Visit visit) const {
+    for (std::int32_t k = first_[node]; k < first_[node + 1]; ++k) {
+      const Use use = uses_[static_cast<std::size_t>(k)];
+      visit(static_cast<std::size_t>(use.constraint), static_cast<std::size_t>(use.slot));
+    }
+  }
+  /// Of all nodes of the set, after the last call: m/s.
+  std::span<const Vec3> velocities() const { return velocity_; }
+  /// Of the nodes that this rank sums for: N s.
+  std::span<const Vec3> impulses() const { return sum_; }
+
+ private:
+  void connect(std::span<const Constraint> constraints);
+  void precondition(std::span<Constraint> constraints, std::span<const NodeState> nodes, std::span<const Body> bodies,
+                    std::span<const double> chosen);
+  template <typename Impulse>
+  void move(std::span<const Constraint> constraints, std::span<const NodeState> nodes, std::vector<Body>& bodies,
+            Impulse impulse);
+  double iterate(std::span<Constraint> constraints, std::span<const Body> bodies, double beta);
+  double weight(const NodeState& node, std::span<const Body> bodies) const;
+
+  Communicator comm_;
+  WorkingSet& set_;
+  std::vector<std::int32_t> first_;  // of each node of the set: its uses begin here
+  struct Use {
+    std::int32_t constraint, slot;
+  };
+  std::vector<Use> uses_;
+  std::vector<Vec3> velocity_, sum_;
+  std::vector<double> crowd_;  // sum of |c| over the constraints of a node
+  bool has_bodies_ = false;
+};
+
+}  // namespace tenon::contact

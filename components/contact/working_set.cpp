@@ -1,0 +1,320 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "components/contact/working_set.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "framework/mesh/halo.hpp"
+
+namespace tenon::contact {
+
+namespace {
+
+/// A face as others need to know it.
+struct FaceRecord {
+  GlobalId id;
+  std::array<NodeRef, 4> corners;
+  std::int32_t count, surface, two_sided;
+  double radius, depth, size;
+};
+
+/// An edge likewise.
+struct EdgeRecord {
+  std::array<NodeRef, 2> ends;
+  std::int32_t surface, two_sided;
+  double radius, depth, size;
+  Vec3 outward;
+};
+
+// Of the least height of a node's faces: what is farther off is of no interest, not even as a gap.
+constexpr double near_share = 0.1;
+
+struct KeyedMemory {
+  PairKey key;
+  PairMemory memory;
+};
+
+NodeRef reference(const Corner& corner) {
+  return {corner.id, corner.home, -1};
+}
+
+bool shares_node(const PairRecord& pair, std::size_t first) {
+  for (std::size_t a = 0; a < first; ++a)
+    for (auto b = first; b < static_cast<std::size_t>(pair.nodes); ++b)
+      if (pair.node[a].id == pair.node[b].id) return true;
+  return false;
+}
+
+}  // namespace
+
+WorkingSet::WorkingSet(const Communicator& comm, const ContactSurfaces& surfaces, SearchDecomposition decomposition)
+    : comm_(comm), surfaces_(surfaces), decomposition_(decomposition), rcb_(comm) {}
+
+void WorkingSet::build(const CandidateSearch& search, std::span<const PairRecord> extra, const PairFilter& filter,
+                       std::span<const std::pair<PairKey, PairMemory>> restored) {
+  collect_work();
+  remember(restored);
+  records_.insert(records_.end(), extra.begin(), extra.end());
+  gather_records(search, filter);
+  partition();
+  send_records();
+  connect();
+}
+
+/// What the nodes cost since the last partition, at their homes.
+void WorkingSet::collect_work() {
+  std::vector<float> of_busy(busy_.size());
+  if (!results_.empty()) results_.reverse<float>(work_, of_busy);
+  home_work_.assign(surfaces_.nodes().size(), 0.0f);
+  for (std::size_t b = 0; b < busy_.size(); ++b)
+    if (static_cast<std::size_t>(busy_[b]) < home_work_.size())
+      home_work_[static_cast<std::size_t>(busy_[b])] = of_busy[b];
+}
+
+/// Memories of the pairs of before go to the homes of their nodes, where the new pairs are made.
+void WorkingSet::remember(std::span<const std::pair<PairKey, PairMemory>> restored) {
+  std::vector<int> to;
+  std::vector<KeyedMemory> send;
+  for (const WorkingPair& pair : pairs_) {
+    if (!pair.primary || pair.memory.empty()) continue;
+    to.push_back(homes_[static_cast<std::size_t>(pair.node[0])].rank);
+    send.push_back({pair.key, pair.memory});
+  }
+  const ExchangePlan plan = ExchangePlan::to_ranks(comm_, to, "contact memory");
+  std::vector<KeyedMemory> arrived(static_cast<std::size_t>(plan.received()));
+  plan.forward<KeyedMemory>(send, arrived);
+  memories_.clear();
+  for (const KeyedMemory& memory : arrived) memories_.emplace_back(memory.key, memory.memory);
+  memories_.insert(memories_.end(), restored.begin(), restored.end());
+  std::ranges::sort(memories_, {}, &std::pair<PairKey, PairMemory>::first);
+  records_.clear();
+}
+
+void WorkingSet::gather_records(const CandidateSearch& search, const PairFilter& filter) {
+  add_node_faces(search);
+  add_edges(search);
+  std::ranges::sort(records_, {}, &PairRecord::key);
+  std::size_t kept = 0;
+  auto memory = memories_.begin();
+  for (PairRecord& record : records_) {
+    while (memory != memories_.end() && memory->first < record.key) ++memory;
+    if (memory != memories_.end() && memory->first == record.key) record.memory = memory->second;
+    if (filter(record)) records_[kept++] = record;
+  }
+  records_.resize(kept);
+}
+
+// The rank of the node asks the rank of the face what it is.
+void WorkingSet::add_node_faces(const CandidateSearch& search) {
+  std::vector<int> to;
+  for (const BoxPair& pair : search.node_faces()) to.push_back(pair.first.rank);
+  const ExchangePlan plan = ExchangePlan::to_ranks(comm_, to, "contact candidates");
+  std::vector<BoxPair> found(static_cast<std::size_t>(plan.received()));
+  plan.forward<BoxPair>(search.node_faces(), found);
+
+  const std::vector<SurfaceFace>& faces = surfaces_.faces();
+  std::vector<FaceRecord> own(faces.size());
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const SurfaceFace& face = faces[f];
+    FaceRecord& record = own[f];
+    record.id = face.id, record.count = face.count(), record.surface = face.surface;
+    record.two_sided = face.two_sided ? 1 : 0;
+    record.radius = face.radius, record.depth = face.depth;
+    for (std::size_t k = 0; k < 4; ++k) record.corners[k] = reference(face.corners[k]);
+  }
+  std::vector<int> owners(found.size());
+  std::vector<LocalIndex> index(found.size()), into(found.size());
+  for (std::size_t i = 0; i < found.size(); ++i)
+    owners[i] = found[i].second.rank, index[i] = found[i].second.index, into[i] = static_cast<LocalIndex>(i);
+  const ExchangePlan pull = ExchangePlan::from_owners(comm_, owners, index, into, "contact candidates");
+  std::vector<FaceRecord> of_pairs(found.size());
+  pull.forward<FaceRecord>(own, of_pairs);
+
+  const std::vector<SurfaceNode>& nodes = surfaces_.nodes();
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const SurfaceNode& node = nodes[static_cast<std::size_t>(found[i].first.index)];
+    const FaceRecord& face = of_pairs[i];
+    PairRecord pair;
+    pair.key = {0, {node.id, face.id, 0, 0}};
+    pair.nodes = 1 + face.count, pair.two_sided = face.two_sided != 0;
+    pair.first_surface = node.surface, pair.second_surface = face.surface;
+    pair.node[0] = {node.id, found[i].first, -1};
+    std::copy_n(face.corners.begin(), face.count, pair.node.begin() + 1);
+    if (shares_node(pair, 1)) continue;
+    pair.clearance = node.radius + face.radius, pair.depth = face.depth, pair.margin = near_share * node.size;
+    records_.push_back(pair);
+  }
+}
+
+// A pair of edges belongs to the rank of the first end of the lesser one.
+void WorkingSet::add_edges(const CandidateSearch& search) {
+  const std::vector<SurfaceEdge>& edges = surfaces_.edges();
+  std::vector<EdgeRecord> own(search.sharp_edges().size());
+  for (std::size_t s = 0; s < own.size(); ++s) {
+    const SurfaceEdge& edge = edges[static_cast<std::size_t>(search.sharp_edges()[s])];
+    own[s].ends = {reference(edge.ends[0]), reference(edge.ends[1])};
+    own[s].surface = edge.surface, own[s].two_sided = edge.two_sided ? 1 : 0;
+    own[s].radius = edge.radius, own[s].depth = edge.depth;
+    own[s].size = surfaces_.nodes()[static_cast<std::size_t>(edge.ends[0].home.index)].size;
+    own[s].outward = search.outward()[s];
+  }
+  const std::vector<BoxPair>& found = search.edge_edges();
+  std::array<std::vector<EdgeRecord>, 2> sides;
+  for (std::size_t side = 0; side < 2; ++side) {
+    std::vector<int> owners(found.size());
+    std::vector<LocalIndex> index(found.size()), into(found.size());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      const ItemHandle& handle = side == 0 ? found[i].first : found[i].second;
+      owners[i] = handle.rank, index[i] = handle.index, into[i] = static_cast<LocalIndex>(i);
+    }
+    const ExchangePlan pull = ExchangePlan::from_owners(comm_, owners, index, into, "contact candidates");
+    sides[side].resize(found.size());
+    pull.forward<EdgeRecord>(own, sides[side]);
+  }
+  std::vector<int> to;
+  std::vector<PairRecord> send;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const EdgeRecord *a = &sides[0][i], *b = &sides[1][i];
+    if (std::array{b->ends[0].id, b->ends[1].id} < std::array{a->ends[0].id, a->ends[1].id}) std::swap(a, b);
+    PairRecord pair;
+    pair.key = {2, {a->ends[0].id, a->ends[1].id, b->ends[0].id, b->ends[1].id}};
+    pair.nodes = 4, pair.two_sided = a->two_sided != 0 || b->two_sided != 0;
+    pair.first_surface = a->surface, pair.second_surface = b->surface;
+    pair.node = {a->ends[0], a->ends[1], b->ends[0], b->ends[1], {}};
+    if (shares_node(pair, 2)) continue;
+    pair.clearance = a->radius + b->radius, pair.depth = std::min(a->depth, b->depth);
+    pair.margin = near_share * std::min(a->size, b->size);
+    pair.first_outward = a->outward, pair.second_outward = b->outward;
+    to.push_back(pair.node[0].home.rank);
+    send.push_back(pair);
+  }
+  const ExchangePlan plan = ExchangePlan::to_ranks(comm_, to, "contact candidates");
+  const std::size_t before = records_.size();
+  records_.resize(before + static_cast<std::size_t>(plan.received()));
+  plan.forward<PairRecord>(send, std::span(records_).subspan(before));
+}
+
+// Nodes that are in some pair are shared out by their work; each pair learns which ranks sum for its nodes.
+void WorkingSet::partition() {
+  const std::vector<SurfaceNode>& nodes = surfaces_.nodes();
+  std::vector<int> owners;
+  std::vector<LocalIndex> index;
+  for (const PairRecord& pair : records_)
+    for (std::int32_t k = 0; k < pair.nodes; ++k) {
+      const ItemHandle& home = pair.node[static_cast<std::size_t>(k)].home;
+      owners.push_back(home.rank), index.push_back(home.index);
+    }
+  std::vector<LocalIndex> into(owners.size());
+  std::iota(into.begin(), into.end(), LocalIndex{0});
+  const ExchangePlan tell = ExchangePlan::to_ranks(comm_, owners, "contact candidates");
+  std::vector<LocalIndex> told(static_cast<std::size_t>(tell.received()));
+  tell.forward<LocalIndex>(index, told);
+  busy_slot_.assign(nodes.size(), no_index);
+  std::vector<double> uses(nodes.size());
+  for (const LocalIndex n : told) uses[static_cast<std::size_t>(n)] += 1;
+  busy_.clear();
+  std::vector<Vec3> places;
+  std::vector<double> weights;
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    if (uses[n] == 0) continue;
+    busy_slot_[n] = static_cast<LocalIndex>(busy_.size());
+    busy_.push_back(static_cast<LocalIndex>(n));
+    places.push_back(surfaces_.parties()[static_cast<std::size_t>(nodes[n].party)]
+                         ->contact_positions()[static_cast<std::size_t>(nodes[n].node)]);
+    weights.push_back(uses[n] + static_cast<double>(home_work_[n]));
+  }
+  home_part_.assign(nodes.size(), comm_.rank());
+  if (comm_.size() > 1 && decomposition_ != SearchDecomposition::owner_boxes) {
+    const std::vector<int> parts = rcb_.partition(places, weights);
+    for (std::size_t b = 0; b < busy_.size(); ++b) home_part_[static_cast<std::size_t>(busy_[b])] = parts[b];
+  }
+  // What the homes answer returns the way that the questions came.
+  std::vector<std::int32_t> answers(told.size()), parts(owners.size());
+  for (std::size_t i = 0; i < told.size(); ++i) answers[i] = home_part_[static_cast<std::size_t>(told[i])];
+  tell.reverse<std::int32_t>(answers, parts);
+  std::size_t next = 0;
+  for (PairRecord& pair : records_)
+    for (std::int32_t k = 0; k < pair.nodes; ++k) pair.node[static_cast<std::size_t>(k)].part = parts[next++];
+}
+
+// All pairs that begin with the same node go to every rank that sums for a node of one of them: the choice among the
+// faces of a node needs them all.
+void WorkingSet::send_records() {
+  std::vector<int> to;
+  std::vector<LocalIndex> which;
+  std::vector<int> ranks;
+  for (std::size_t begin = 0, end = 0; begin < records_.size(); begin = end) {
+    ranks.clear();
+    while (end < records_.size() && records_[end].key.kind == records_[begin].key.kind &&
+           records_[end].key.ids[0] == records_[begin].key.ids[0])
+      ++end;
+    for (std::size_t i = begin; i < end; ++i)
+      for (std::int32_t k = 0; k < records_[i].nodes; ++k)
+        ranks.push_back(records_[i].node[static_cast<std::size_t>(k)].part);
+    std::ranges::sort(ranks);
+    ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
+    for (const int rank : ranks)
+      for (std::size_t i = begin; i < end; ++i) to.push_back(rank), which.push_back(static_cast<LocalIndex>(i));
+  }
+  const ExchangePlan plan = ExchangePlan::to_ranks(comm_, to, which, "contact pairs");
+  arrived_.resize(static_cast<std::size_t>(plan.received()));
+  plan.forward<PairRecord>(records_, arrived_);
+  std::ranges::sort(arrived_, {}, &PairRecord::key);
+  any_ = comm_.any(!arrived_.empty());
+}
+
+void WorkingSet::connect() {
+  std::vector<NodeRef> refs;
+  for (const PairRecord& pair : arrived_)
+    refs.insert(refs.end(), pair.node.begin(), pair.node.begin() + pair.nodes);
+  std::ranges::sort(refs, {}, &NodeRef::id);
+  refs.erase(std::unique(refs.begin(), refs.end(), [](const NodeRef& a, const NodeRef& b) { return a.id == b.id; }),
+             refs.end());
+  ids_.clear(), homes_.clear(), parts_.clear();
+  for (const NodeRef& ref : refs) ids_.push_back(ref.id), homes_.push_back(ref.home), parts_.push_back(ref.part);
+  work_.assign(ids_.size(), 0.0f);
+
+  const auto local = [&](GlobalId id) {
+    return static_cast<LocalIndex>(std::ranges::lower_bound(ids_, id) - ids_.begin());
+  };
+  pairs_.clear();
+  pairs_.reserve(arrived_.size());
+  for (const PairRecord& record : arrived_) {
+    WorkingPair pair{record.key,       record.nodes,           record.two_sided,
+                     record.first_surface, record.second_surface, {no_index, no_index, no_index, no_index, no_index},
+                     record.clearance, record.depth,           record.margin,
+                     record.first_outward, record.second_outward, record.memory,
+                     record.node[0].part == comm_.rank()};
+    for (std::int32_t k = 0; k < record.nodes; ++k)
+      pair.node[static_cast<std::size_t>(k)] = local(record.node[static_cast<std::size_t>(k)].id);
+    pairs_.push_back(pair);
+  }
+
+  const std::size_t count = ids_.size();
+  std::vector<int> home_rank(count), result_rank(count, -1), halo_rank(count, -1);
+  std::vector<LocalIndex> home_index(count), every(count);
+  std::iota(every.begin(), every.end(), LocalIndex{0});
+  for (std::size_t n = 0; n < count; ++n) {
+    home_rank[n] = homes_[n].rank, home_index[n] = homes_[n].index;
+    if (parts_[n] == comm_.rank())
+      result_rank[n] = homes_[n].rank;
+    else
+      halo_rank[n] = parts_[n];
+  }
+  // Busy nodes travel, so their places among these are what counts.
+  const ExchangePlan ask = ExchangePlan::from_owners(comm_, home_rank, home_index, every, "contact plans");
+  std::vector<LocalIndex> slot(count);
+  ask.forward<LocalIndex>(busy_slot_, slot);
+  from_home_ = ExchangePlan::from_owners(comm_, home_rank, slot, every, "contact state");
+  results_ = ExchangePlan::from_owners(comm_, result_rank, slot, every, "contact impulses");
+  const std::vector<LocalIndex> places = places_at_owners(comm_, parts_, ids_, ids_, "contact plans");
+  halo_ = ExchangePlan::from_owners(comm_, halo_rank, places, every, "contact iteration");
+}
+
+std::int64_t WorkingSet::memory() const {
+  return static_cast<std::int64_t>(pairs_.capacity() * sizeof(WorkingPair) +
+                                   (records_.capacity() + arrived_.capacity()) * sizeof(PairRecord) +
+                                   ids_.capacity() * (sizeof(GlobalId) + sizeof(ItemHandle) + 8));
+}
+
+}  // namespace tenon::contact

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The part of contact that one rank enforces: candidate pairs, their nodes, and where these live.
+#pragma once
+
+#include <array>
+#include <compare>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "components/contact/candidate_search.hpp"
+#include "components/contact/contact_surfaces.hpp"
+#include "framework/decomposition/rcb.hpp"
+
+namespace tenon::contact {
+
+/// Names a pair, the same on every rank; the order in which sums are taken.
+struct PairKey {
+  std::int64_t kind;  ///< 0 node and face, 1 node and rigid surface, 2 edge and edge
+  std::array<GlobalId, 4> ids;  ///< node, face | node, surface | ends of the first edge, ends of the second
+  auto operator<=>(const PairKey&) const = default;
+};
+
+/// What a pair keeps from step to step.
+struct PairMemory {
+  Vec3 force{};       ///< N, on the first side, in the last step
+  Vec3 slip{};        ///< m: way along the surface that sticking has yet to undo
+  double energy = 0;  ///< J: taken at impact, given back at release
+  bool empty() const { return force == Vec3{} && slip == Vec3{} && energy == 0; }
+};
+
+/// A node of a pair: who it is, where it lives, and which rank of the working sets sums for it.
+struct NodeRef {
+  GlobalId id = no_id;
+  ItemHandle home{-1, no_index};
+  std::int32_t part = -1;
+};
+
+/// A pair as it travels to the ranks that need it. Nodes: the node and the face's corners, or the ends of both edges.
+struct PairRecord {
+  PairKey key;
+  std::int32_t nodes = 0;  ///< count
+  bool two_sided = false;
+  std::int32_t first_surface = 0, second_surface = 0;
+  std::array<NodeRef, 5> node;
+  double clearance = 0;  ///< m, between the mid-surfaces
+  double depth = 0;      ///< m
+  double margin = 0;     ///< m: pairs farther apart than this are of no interest
+  Vec3 first_outward{}, second_outward{};  ///< of edges
+  PairMemory memory;
+};
+
+/// A pair here; nodes are indices of the working set.
+struct WorkingPair {
+  PairKey key;
+  std::int32_t nodes;
+  bool two_sided;
+  std::int32_t first_surface, second_surface;
+  std::array<LocalIndex, 5> node;
+  double clearance, depth, margin;
+  Vec3 first_outward, second_outward;
+  PairMemory memory;
+  bool primary;  ///< this rank sums for its first node: it reports the pair
+};
+
+/// What may be left out of a pair, or is known of it: false drops it. Sees surfaces and sets clearance and the like.
+using PairFilter = std::function<bool(PairRecord&)>;
+
+/// Pairs stand ascending by key, nodes ascending by id, the same on any number of ranks but for how many of them there
+/// are. Every rank has all the candidates of a node of which it needs one.
+class WorkingSet {
+ public:
+  WorkingSet(const Communicator& comm, const ContactSurfaces& surfaces, SearchDecomposition decomposition);
+
+  /// Collective. Takes what a search found, and what the pairs before remember. `work` of the nodes before sets the
+  /// weights of the partition. Extra pairs (with rigid surfaces) come from the ranks that own the nodes.
+  void build(const CandidateSearch& search, std::span<const PairRecord> extra, const PairFilter& filter,
+             std::span<const std::pair<PairKey, PairMemory>> restored);
+
+  const std::vector<WorkingPair>& pairs() const { return pairs_; }
+  std::vector<WorkingPair>& pairs() { return pairs_; }
+  LocalIndex nodes() const { return static_cast<LocalIndex>(ids_.size()); }
+  bool sums(LocalIndex node) const { return parts_[static_cast<std::size_t>(node)] == comm_.rank(); }
+  GlobalId id(LocalIndex node) const { return ids_[static_cast<std::size_t>(node)]; }
+
+  /// Nodes of this rank's surfaces that are in some pair, ascending: indices of ContactSurfaces::nodes().
+  const std::vector<LocalIndex>& busy() const { return busy_; }
+  /// Values of busy nodes (as busy()) to all ranks that need them (as nodes of the set).
+  const ExchangePlan& from_home() const { return from_home_; }
+  /// The way back of those that this rank sums for: `reverse` of this plan.
+  const ExchangePlan& results() const { return results_; }
+  /// From the rank that sums for a node to the others that have it.
+  const ExchangePlan& halo() const { return halo_; }
+  /// Whether any rank has a pair.
+  bool any() const { return any_; }
+  /// Counted work of enforcement per node of the set, for the next partition.
+  std::vector<float>& work() { return work_; }
+  std::int64_t memory() const;
+
+ private:
+  void gather_records(const CandidateSearch& search, const PairFilter& filter);
+  void add_node_faces(const CandidateSearch& search);
+  void add_edges(const CandidateSearch& search);
+  void collect_work();
+  void remember(std::span<const std::pair<PairKey, PairMemory>> restored);
+  void partition();
+  void send_records();
+  void connect();
+
+  Communicator comm_;
+  const ContactSurfaces& surfaces_;
+  SearchDecomposition decomposition_;
+  Rcb rcb_;
+  bool any_ = false;
+  std::vector<PairRecord> records_;  // at the homes of first nodes, ascending by key
+  std::vector<std::pair<PairKey, PairMemory>> memories_;  // of the pairs before, likewise
+  std::vector<LocalIndex> busy_;
+  std::vector<LocalIndex> busy_slot_;   // of all home nodes: place in busy_, or no_index
+  std::vector<std::int32_t> home_part_;  // of home nodes
+  std::vector<float> home_work_;
+  std::vector<WorkingPair> pairs_;
+  std::vector<PairRecord> arrived_;
+  std::vector<GlobalId> ids_;
+  std::vector<ItemHandle> homes_;
+  std::vector<std::int32_t> parts_;
+  std::vector<float> work_;
+  ExchangePlan from_home_, results_, halo_;
+};
+
+}  // namespace tenon::contact
