@@ -112,8 +112,7 @@ void CandidateSearch::make_boxes() {
   face_boxes_.assign(faces.size(), Box{});
   planes_.resize(faces.size());
   for (std::size_t f = 0; f < faces.size(); ++f) {
-    const std::span<const Vec3> x =
-        surfaces_.parties()[static_cast<std::size_t>(faces[f].party)]->contact_positions();
+    const std::span<const Vec3> x = surfaces_.parties()[static_cast<std::size_t>(faces[f].party)]->contact_positions();
     std::array<Vec3, 4> corner{};
     double skin = 0;
     for (int k = 0; k < faces[f].count(); ++k) {

@@ -65,9 +65,9 @@ class CandidateSearch {
   };
 
   bool sought_ = false;
-  double widening_ = 1;    // of skins, while nothing is near
-  Vec3 common_{};          // velocity that all share, m/s
-  double since_ = 0;       // time since the search, s
+  double widening_ = 1;      // of skins, while nothing is near
+  Vec3 common_{};            // velocity that all share, m/s
+  double since_ = 0;         // time since the search, s
   std::vector<Vec3> place_;  // of nodes, when sought
   std::vector<double> skin_, corner_skin_, far_skin_, inverse_square_;
   std::vector<FacePlane> planes_, edge_planes_;

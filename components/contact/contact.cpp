@@ -12,11 +12,11 @@ void Contact::act(double time, double dt) {
   ++steps_;
   {
     const ScopedTimer timer(*phases_.check);
-    used_ = search_.used(dt);
+    used_ = std::max(search_.used(dt), used_by_rigid(time, dt));
   }
   if (used_ > 1) {
-    search(dt);
-    used_ = search_.used(dt);
+    search(time, dt);
+    used_ = std::max(search_.used(dt), used_by_rigid(time, dt));
   }
   if (set_.any()) {
     gather(time, dt);
@@ -95,8 +95,7 @@ void Contact::solve(double dt) {
     const PairMemory& memory = set_.pairs()[static_cast<std::size_t>(q.pair)].memory;
     const double along = std::max(0.0, dot(memory.force, q.normal));
     q.impulse = (dt * along) * q.normal;
-    if (q.static_coefficient > 0)
-      q.impulse = q.impulse + dt * (memory.force - dot(memory.force, q.normal) * q.normal);
+    if (q.static_coefficient > 0) q.impulse = q.impulse + dt * (memory.force - dot(memory.force, q.normal) * q.normal);
   }
   const Enforcement::Report report = enforcement_.solve(constraints_, state_, bodies_);
   iterations_ = report.iterations, iterations_total_ += report.iterations;

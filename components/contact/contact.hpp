@@ -2,6 +2,7 @@
 // Contact between and within the surfaces of any components: found and enforced in decompositions of its own.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -16,12 +17,13 @@
 namespace tenon {
 
 /// Surfaces may not enter each other: at the end of every step every gap is closed at most. Impulses on the nodes are
-/// explicit Lagrange multipliers [CTB91] that depend on masses only, so there is no stiffness to choose, and constraints
-/// never lower the stable step of the parties. What a node loses when it hits is kept as contact energy and given back
-/// when it leaves: waves are reflected as the continuum does it, whatever the size of the elements.
+/// explicit Lagrange multipliers [CTB91] that depend on masses only, so there is no stiffness to choose, and
+/// constraints never lower the stable step of the parties. What a node loses when it hits is kept as contact energy and
+/// given back when it leaves: waves are reflected as the continuum does it, whatever the size of the elements.
 ///
 /// A step (of the parties together):
-///   search     only when a node has used up its skin: boxes of nodes, faces and sharp edges in the decomposition of the
+///   search     only when a node has used up its skin: boxes of nodes, faces and sharp edges in the decomposition of
+///   the
 ///              search; candidate pairs go to the decomposition of the enforcement
 ///   gather     places and velocities of the nodes that have candidates
 ///   touch      which pairs can meet in this step, and where (contact_geometry)
@@ -65,15 +67,22 @@ class Contact final : public Interaction {
   using PairKey = contact::PairKey;
   using PairMemory = contact::PairMemory;
 
+  static constexpr std::int64_t kept_overlap = 9;  // kind of a row of the checkpoint
+
   // Set-up.
   void read_pairs();
   std::int32_t find_surface(const std::string& name) const;
   std::string surface_name(std::int32_t surface) const;
   void settle_overlaps();
+  void find_overlaps();
+  void list_overlaps();
+  void push_apart();
+  void keep_overlaps();
   // Search.
-  void search(double dt);
-  void renew(double dt);
-  void add_rigid_pairs(double dt, std::vector<contact::PairRecord>& extra) const;
+  void search(double time, double dt);
+  void renew(double time, double dt);
+  double used_by_rigid(double time, double dt) const;
+  void add_rigid_pairs(double time, double dt, std::vector<contact::PairRecord>& extra);
   bool admit(contact::PairRecord& pair) const;
   void limit_clearances();
   void watch_nodes();
@@ -118,23 +127,25 @@ class Contact final : public Interaction {
   std::int32_t surface_count_ = 0;
   std::vector<Rule> rules_;
 
-  double used_ = 0;      // of the skins, after the last step
-  double rigid_skin_ = 0;
-  std::vector<Vec3> rigid_sought_;  // shifts when sought
+  std::map<GlobalId, double> kept_;  // m: overlap that nodes of this rank were given
+
+  double used_ = 0;                 // of the skins, after the last step
+  std::vector<Vec3> rigid_sought_;  // shifts of rigid surfaces when sought, m
+  double rigid_skin_ = 0;           // m, which they may move beside the common motion
   double widening_ = 1;
-  int narrow_ = 0;       // searches until skins may be widened again
+  int narrow_ = 0;  // searches until skins may be widened again
   bool started_ = false;
 
   // Of a step.
   std::vector<contact::NodeState> home_state_, state_;
-  std::vector<Vec3> end_;               // predicted places, m
-  std::vector<contact::Body> bodies_;   // of the parties, then free rigid surfaces
+  std::vector<Vec3> end_;                 // predicted places, m
+  std::vector<contact::Body> bodies_;     // of the parties, then free rigid surfaces
   std::vector<std::int32_t> first_body_;  // of each party; then of the rigid surfaces
   std::vector<Constraint> constraints_;
   std::vector<std::int32_t> constraint_of_pair_;
-  std::vector<double> released_;        // J, per constraint
-  std::vector<Vec3> slid_;              // m, in this step, per constraint
-  std::vector<double> heat_;            // J, likewise
+  std::vector<double> released_;  // J, per constraint
+  std::vector<Vec3> slid_;        // m, in this step, per constraint
+  std::vector<double> heat_;      // J, likewise
   std::vector<contact::Touch> touches_;
   std::vector<std::array<GlobalId, 4>> touch_nodes_;
   std::vector<GlobalId> touch_ids_;

@@ -52,6 +52,8 @@ void Contact::save(CheckpointWriter& file) {
     row[11] = pair.memory.energy;
     rows.push_back(row);
   }
+  for (const auto& [id, depth] : kept_)
+    rows.push_back({static_cast<double>(kept_overlap), static_cast<double>(id), 0, 0, 0, 0, 0, 0, 0, 0, 0, depth});
   // Pairs that touch are few beside nodes; in the order of their keys the file is the same for any number of ranks.
   std::vector<std::array<double, row_length>> all = comm_.gather<std::array<double, row_length>>(rows);
   std::ranges::sort(all);

@@ -31,10 +31,10 @@ struct RigidSurface {
   enum class Shape { plane, sphere, cylinder };
   std::string name;
   Shape shape = Shape::plane;
-  Vec3 point{};               ///< m: of the plane, or the centre
-  Vec3 direction{0, 0, 1};    ///< normal of the plane, to where bodies may be; axis of the (endless) cylinder
-  double radius = 0;          ///< m
-  bool hollow = false;        ///< bodies are inside of the sphere or cylinder
+  Vec3 point{};             ///< m: of the plane, or the centre
+  Vec3 direction{0, 0, 1};  ///< normal of the plane, to where bodies may be; axis of the (endless) cylinder
+  double radius = 0;        ///< m
+  bool hollow = false;      ///< bodies are inside of the sphere or cylinder
   std::array<TimeFunction, 3> displacement;  ///< m, of time; unless it has a mass
   std::optional<double> mass;                ///< kg: it translates freely, from rest or `velocity`
   Vec3 velocity{};                           ///< m/s, at the start, with a mass

@@ -15,39 +15,130 @@ using namespace contact;
 
 namespace {
 
-// Of the margin of a pair, itself a tenth of a face: less is round-off of a mesh.
+// Of the distance within which pairs are of interest, itself a tenth of a face: less is round-off of a mesh.
 constexpr double least_overlap = 1e-6;
 constexpr int greatest_passes = 10;
+
+/// Overlaps between two surfaces.
+struct Overlap {
+  std::int32_t first, second;
+  double depth;  // m
+  Vec3 place;    // m
+};
 
 }  // namespace
 
 // The same constraints and the same iteration as in a step, on displacements in place of velocities: a step of one
 // second from rest.
 void Contact::settle_overlaps() {
-  std::map<std::pair<std::int32_t, std::int32_t>, std::pair<std::int64_t, double>> before;
+  using Choice = ContactOptions::InitialOverlaps;
   std::int64_t left = 0;
-  for (int pass = 0; pass <= greatest_passes; ++pass) {
-    left = 0;
-    if (!set_.any()) break;
-    std::vector<double> depth;
-    std::vector<std::pair<std::int32_t, std::int32_t>> between;
-    for_overlaps([&](const WorkingPair& pair, double overlap) {
-      between.emplace_back(std::minmax(pair.first_surface, pair.second_surface));
-      depth.push_back(overlap);
-    });
-    left = comm_.sum(static_cast<std::int64_t>(depth.size()));
-    if (pass == 0) list_overlaps(between, depth);
-    if (left == 0 || options_.initial_overlaps != ContactOptions::InitialOverlaps::remove) break;
-    if (pass < greatest_passes) push_apart();
+  for (int pass = 0; pass <= greatest_passes && set_.any(); ++pass) {
+    find_overlaps();
+    left = comm_.sum(static_cast<std::int64_t>(constraints_.size()));
+    if (left > 0 && pass == 0) list_overlaps();
+    if (left == 0 || options_.initial_overlaps != Choice::remove || pass == greatest_passes) break;
+    push_apart();
   }
-  if (left == 0) return;
-  if (options_.initial_overlaps == ContactOptions::InitialOverlaps::refuse)
-    throw Error(ExitCode::geometry, fmt::format("{}: bodies overlap before the first step ({}); mend the mesh, or say "
-                                                "contact.initial_overlaps: remove (or keep)",
-                                                name(), warnings_.back()));
-  if (options_.initial_overlaps == ContactOptions::InitialOverlaps::remove)
-    warnings_.push_back(fmt::format("{}: {} pairs still overlap after {} passes; the rest goes in the first steps",
-                                    name(), left, greatest_passes));
+  if (left > 0 && options_.initial_overlaps == Choice::refuse)
+    throw Error(ExitCode::geometry,
+                warnings_.back() + "; mend the mesh, or let contact do it (initial_overlaps: remove)");
+  if (left > 0 && options_.initial_overlaps == Choice::keep) keep_overlaps();
+  if (left > 0 && options_.initial_overlaps == Choice::remove)
+    warnings_.push_back(
+        fmt::format("{}: {} overlaps are not quite removed after {} passes; the rest goes in the first "
+                    "steps",
+                    name(), left, greatest_passes));
+  constraints_.clear();
+  any_constraint_ = false;
+}
+
+/// Constraints of the pairs that overlap where everything stands.
+void Contact::find_overlaps() {
+  gather(components_.front()->time(), 1);
+  for (std::size_t n = 0; n < state_.size(); ++n) {
+    state_[n].velocity = state_[n].former = {};
+    end_[n] = state_[n].place;
+  }
+  for (Body& body : bodies_) {
+    body.state.velocity = body.state.spin = {};
+    body.state.inverse_mass.fill(0), body.state.inverse_inertia.fill(0);  // bodies stay where they were put
+  }
+  find_constraints(components_.front()->time(), 1);
+  std::erase_if(constraints_, [&](const Constraint& q) {
+    return !(q.gap < -least_overlap * set_.pairs()[static_cast<std::size_t>(q.pair)].margin);
+  });
+  for (Constraint& q : constraints_) {
+    q.target = -q.gap;
+    q.static_coefficient = q.kinetic_coefficient = 0;
+    q.surface_velocity = {};
+  }
+}
+
+void Contact::list_overlaps() {
+  std::vector<Overlap> mine;
+  for (const Constraint& q : constraints_) {
+    const WorkingPair& pair = set_.pairs()[static_cast<std::size_t>(q.pair)];
+    if (pair.primary)
+      mine.push_back({std::min(pair.first_surface, pair.second_surface),
+                      std::max(pair.first_surface, pair.second_surface), -q.gap,
+                      state_[static_cast<std::size_t>(q.node[0])].place});
+  }
+  std::vector<Overlap> all = comm_.gather<Overlap>(mine);
+  std::ranges::sort(all, [](const Overlap& a, const Overlap& b) {
+    if (a.first != b.first) return a.first < b.first;
+    if (a.second != b.second) return a.second < b.second;
+    return a.depth != b.depth ? a.depth > b.depth : a.place < b.place;
+  });
+  std::string text;
+  for (std::size_t begin = 0, end = 0; begin < all.size(); begin = end) {
+    while (end < all.size() && all[end].first == all[begin].first && all[end].second == all[begin].second) ++end;
+    const Overlap& worst = all[begin];
+    text += fmt::format("{}{} and {} at {} places, deepest {:.4g} m at ({:.6g}, {:.6g}, {:.6g})",
+                        text.empty() ? "" : "; ", surface_name(worst.first), surface_name(worst.second), end - begin,
+                        worst.depth, worst.place[0], worst.place[1], worst.place[2]);
+  }
+  comm_.broadcast(text);
+  const char* then = options_.initial_overlaps == ContactOptions::InitialOverlaps::remove ? "; nodes are moved apart"
+                     : options_.initial_overlaps == ContactOptions::InitialOverlaps::keep ? "; they are kept"
+                                                                                          : "";
+  warnings_.push_back(fmt::format("{}: initial overlaps: {}{}", name(), text, then));
+}
+
+/// Moves nodes by what the constraints ask for, without stress.
+void Contact::push_apart() {
+  enforcement_.solve(constraints_, state_, bodies_);
+  std::vector<Vec3> by(set_.busy().size());
+  set_.results().reverse<Vec3>(enforcement_.velocities(), by);
+  std::vector<LocalIndex> nodes;
+  std::vector<Vec3> shifts;
+  std::size_t b = 0;
+  for (std::size_t p = 0; p < parties_.size(); ++p) {
+    nodes.clear(), shifts.clear();
+    for (; b < set_.busy().size(); ++b) {
+      const SurfaceNode& node = surfaces_.nodes()[static_cast<std::size_t>(set_.busy()[b])];
+      if (node.party != static_cast<std::int32_t>(p)) break;
+      if (by[b] == Vec3{}) continue;
+      nodes.push_back(node.node), shifts.push_back(by[b]);
+    }
+    parties_[p]->shift(nodes, shifts);
+  }
+  search(components_.front()->time(), 0);
+}
+
+/// Every node that overlaps may go on to do so, to the same depth.
+void Contact::keep_overlaps() {
+  std::vector<double> depth(state_.size()), at_home(set_.busy().size());
+  for (const Constraint& q : constraints_)
+    for (std::int32_t k = 0; k < q.nodes; ++k)
+      if (q.c[static_cast<std::size_t>(k)] > 0) {
+        double& d = depth[static_cast<std::size_t>(q.node[static_cast<std::size_t>(k)])];
+        d = std::max(d, -q.gap);
+      }
+  set_.results().reverse<double>(depth, at_home);
+  for (std::size_t b = 0; b < at_home.size(); ++b)
+    if (at_home[b] > 0) kept_[surfaces_.nodes()[static_cast<std::size_t>(set_.busy()[b])].id] = at_home[b];
+  limit_clearances();
 }
 
 }  // namespace tenon

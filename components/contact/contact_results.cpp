@@ -111,8 +111,7 @@ std::vector<std::pair<std::string, ExactSum>> Contact::amounts() {
   active.add(static_cast<double>(active_));
   all.emplace_back("contact_pairs", active);
   for (const PairTotals& total : totals_) {
-    const std::string prefix =
-        fmt::format("contact_{}_{}_", surface_name(total.first), surface_name(total.second));
+    const std::string prefix = fmt::format("contact_{}_{}_", surface_name(total.first), surface_name(total.second));
     for (std::size_t c = 0; c < 3; ++c) all.emplace_back(prefix + "force_" + "xyz"[c], total.force[c]);
     for (std::size_t c = 0; c < 3; ++c) all.emplace_back(prefix + "impulse_" + "xyz"[c], total.impulse[c]);
     all.emplace_back(prefix + "friction_work", total.friction_work);
@@ -174,8 +173,8 @@ std::vector<std::string> Contact::report() {
       return sum > 0 ? static_cast<double>(comm_.max(mine)) * comm_.size() / sum : 1.0;
     };
     const double search = ratio(search_work_), enforcement = ratio(enforcement_work_);
-    lines.push_back(fmt::format("greatest over mean work of the ranks: search {:.2f}, enforcement {:.2f}", search,
-                                enforcement));
+    lines.push_back(
+        fmt::format("greatest over mean work of the ranks: search {:.2f}, enforcement {:.2f}", search, enforcement));
   }
   return lines;
 }

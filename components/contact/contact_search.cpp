@@ -13,29 +13,29 @@ using namespace contact;
 
 namespace {
 
-// A search in good time, before a step begins, also remembers velocities of before the kick; one in the middle of a step
-// is a way out for sudden motion.
+// A search in good time, before a step begins, also remembers velocities of before the kick; one in the middle of a
+// step is a way out for sudden motion.
 constexpr double in_good_time = 0.7;
 constexpr double greatest_widening = 64;
 constexpr int searches_before_widening = 20;
 
 }  // namespace
 
-void Contact::prepare(double, double dt) {
+void Contact::prepare(double time, double dt) {
   if (surfaces_.stale()) {
     surfaces_.build();
     search_.forget();
   }
-  if (options_.always_search || !search_.sought() || used_ > in_good_time) search(dt);
+  if (options_.always_search || !search_.sought() || used_ > in_good_time) search(time, dt);
 }
 
-void Contact::search(double dt) {
-  renew(dt);
+void Contact::search(double time, double dt) {
+  renew(time, dt);
   ++searches_;
   if (set_.any() && widening_ > 1) {  // something is near after all: wide skins would find too much
     widening_ = 1, narrow_ = searches_before_widening;
     search_.widen(1);
-    renew(dt);
+    renew(time, dt);
   } else if (!set_.any() && narrow_-- <= 0) {
     widening_ = std::min(2 * widening_, greatest_widening);
     search_.widen(widening_);
@@ -43,7 +43,7 @@ void Contact::search(double dt) {
   used_ = 0;
 }
 
-void Contact::renew(double dt) {
+void Contact::renew(double time, double dt) {
   {
     const ScopedTimer timer(*phases_.search);
     search_.run(dt);
@@ -51,22 +51,31 @@ void Contact::renew(double dt) {
   }
   const ScopedTimer timer(*phases_.share);
   std::vector<PairRecord> extra;
-  add_rigid_pairs(dt, extra);
-  set_.build(search_, extra, [this](PairRecord& pair) { return admit(pair); }, restored_);
+  add_rigid_pairs(time, dt, extra);
+  set_.build(
+      search_, extra, [this](PairRecord& pair) { return admit(pair); }, restored_);
   restored_.clear();
   limit_clearances();
   watch_nodes();
 }
 
-void Contact::add_rigid_pairs(double dt, std::vector<PairRecord>& extra) const {
+// Rigid surfaces have a skin, too: as wide as those of the nodes at most, and twice what they move in a step at least.
+void Contact::add_rigid_pairs(double time, double dt, std::vector<PairRecord>& extra) {
+  if (rigid_.empty()) return;
   const std::vector<SurfaceNode>& nodes = surfaces_.nodes();
+  rigid_skin_ = comm_.max(search_.skins().empty() ? 0.0 : std::ranges::max(search_.skins()));
+  rigid_sought_.clear();
+  for (const MovingSurface& surface : rigid_) {
+    rigid_sought_.push_back(surface.shift());
+    if (dt > 0) rigid_skin_ = std::max(rigid_skin_, 2 * dt * norm(surface.velocity(time, dt) - search_.common()));
+  }
   for (std::size_t r = 0; r < rigid_.size(); ++r)
     for (std::size_t n = 0; n < nodes.size(); ++n) {
       const SurfaceNode& node = nodes[n];
-      const Vec3 x = parties_[static_cast<std::size_t>(node.party)]
-                         ->contact_positions()[static_cast<std::size_t>(node.node)];
-      const double skin = search_.skins()[n], margin = 0.1 * node.size;
-      if (!(rigid_[r].distance(x) - node.radius <= 2 * skin + margin)) continue;
+      const Vec3 x =
+          parties_[static_cast<std::size_t>(node.party)]->contact_positions()[static_cast<std::size_t>(node.node)];
+      const double margin = 0.1 * node.size;
+      if (!(rigid_[r].distance(x) - node.radius <= search_.skins()[n] + rigid_skin_ + margin)) continue;
       PairRecord pair;
       pair.key = {1, {node.id, static_cast<GlobalId>(r), 0, 0}};
       pair.nodes = 1;
@@ -76,31 +85,49 @@ void Contact::add_rigid_pairs(double dt, std::vector<PairRecord>& extra) const {
       pair.clearance = node.radius, pair.margin = margin;
       extra.push_back(pair);
     }
-  static_cast<void>(dt);
+}
+
+/// Local, the same on every rank: share of the rigid surfaces' skin that is used at the end of the step.
+double Contact::used_by_rigid(double time, double dt) const {
+  double greatest = 0;
+  for (std::size_t r = 0; r < rigid_.size(); ++r) {
+    const Vec3 moved = rigid_[r].shift() + dt * rigid_[r].velocity(time, dt) - rigid_sought_[r] -
+                       (search_.since() + dt) * search_.common();
+    greatest = std::max(greatest, norm(moved));
+  }
+  return rigid_skin_ > 0 ? greatest / rigid_skin_ : 0;
 }
 
 // Shells may be drawn closer to each other than they are thick: at folds and where layers meet. What was so at first
-// stays allowed, unless it is an overlap to be removed.
+// stays allowed, and so do overlaps that are kept.
 void Contact::limit_clearances() {
-  std::vector<Vec3> drawn;
+  struct Drawn {
+    Vec3 place;
+    double kept;
+  };
+  std::vector<Drawn> drawn;
   for (const LocalIndex n : set_.busy()) {
     const SurfaceNode& node = surfaces_.nodes()[static_cast<std::size_t>(n)];
-    drawn.push_back(parties_[static_cast<std::size_t>(node.party)]
-                        ->contact_mesh()
-                        .coordinates[static_cast<std::size_t>(node.node)]);
+    const auto kept = kept_.find(node.id);
+    drawn.push_back({parties_[static_cast<std::size_t>(node.party)]
+                         ->contact_mesh()
+                         .coordinates[static_cast<std::size_t>(node.node)],
+                     kept == kept_.end() ? 0.0 : kept->second});
   }
-  std::vector<Vec3> at(static_cast<std::size_t>(set_.nodes()));
-  set_.from_home().forward<Vec3>(drawn, at);
+  std::vector<Drawn> at(static_cast<std::size_t>(set_.nodes()));
+  set_.from_home().forward<Drawn>(drawn, at);
+  const auto of = [&](const WorkingPair& pair, std::int32_t k) -> const Drawn& {
+    return at[static_cast<std::size_t>(pair.node[static_cast<std::size_t>(k)])];
+  };
   for (WorkingPair& pair : set_.pairs()) {
-    if (pair.key.kind != 0 || !pair.two_sided || pair.clearance == 0) continue;
-    const std::int32_t blocks = static_cast<std::int32_t>(surfaces_.names().size());
-    if (pair.first_surface >= blocks || pair.second_surface >= blocks) continue;
-    FaceShape face{pair.nodes - 1, {}};
-    for (std::int32_t k = 1; k < pair.nodes; ++k)
-      face.x[static_cast<std::size_t>(k - 1)] =
-          at[static_cast<std::size_t>(pair.node[static_cast<std::size_t>(k)])];
-    const double distance = closest_point(face, at[static_cast<std::size_t>(pair.node[0])]).distance;
-    if (distance < pair.clearance) pair.clearance = distance;
+    double kept = of(pair, 0).kept;
+    if (pair.key.kind == 2) kept = std::max(kept, of(pair, 1).kept);
+    if (pair.key.kind == 0 && pair.shells) {
+      FaceShape face{pair.nodes - 1, {}};
+      for (std::int32_t k = 1; k < pair.nodes; ++k) face.x[static_cast<std::size_t>(k - 1)] = of(pair, k).place;
+      pair.clearance = std::min(pair.clearance, closest_point(face, of(pair, 0).place).distance);
+    }
+    pair.clearance -= kept;
   }
 }
 

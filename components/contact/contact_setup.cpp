@@ -52,7 +52,8 @@ std::int32_t Contact::find_surface(const std::string& wanted) const {
     if (surface_name(s) == wanted) return s;
   std::string known;
   for (std::int32_t s = 0; s < surface_count_; ++s) known += (s > 0 ? ", " : "") + surface_name(s);
-  throw Error(ExitCode::usage, fmt::format("{}: pairs: there is no surface '{}'; there are: {}", name(), wanted, known));
+  throw Error(ExitCode::usage,
+              fmt::format("{}: pairs: there is no surface '{}'; there are: {}", name(), wanted, known));
 }
 
 std::string Contact::surface_name(std::int32_t surface) const {
@@ -94,7 +95,12 @@ void Contact::initialize() {
   surfaces_.build();
   // Every rank has read all memories; each goes on with those of its own nodes.
   std::erase_if(restored_, [&](const auto& item) { return surfaces_.find_node(item.first.ids[0]) == no_index; });
-  search(0);
+  std::erase_if(restored_, [&](const auto& item) {
+    if (item.first.kind != kept_overlap) return false;
+    kept_[item.first.ids[0]] = item.second.energy;
+    return true;
+  });
+  search(components_.front()->time(), 0);
   if (!started_) settle_overlaps();
   started_ = true;
 }

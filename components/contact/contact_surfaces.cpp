@@ -95,8 +95,14 @@ void ContactSurfaces::take_faces() {
     own.clear();
     parties_[p]->contact_faces(own);
     for (const ContactFace& face : own)
-      faces_.push_back({face_offsets_[p] + face.id, static_cast<std::int32_t>(p), face.nodes, {},
-                        surface_offsets_[p] + face.surface, 0.5 * face.thickness, face.depth, face.two_sided});
+      faces_.push_back({face_offsets_[p] + face.id,
+                        static_cast<std::int32_t>(p),
+                        face.nodes,
+                        {},
+                        surface_offsets_[p] + face.surface,
+                        0.5 * face.thickness,
+                        face.depth,
+                        face.two_sided});
   }
 }
 
@@ -147,8 +153,7 @@ void ContactSurfaces::find_nodes() {
     const GlobalId id = id_of(claim);
     if (nodes_.empty() || nodes_.back().id != id) {
       const Mesh& mesh = parties_[static_cast<std::size_t>(claim.party)]->contact_mesh();
-      nodes_.push_back({id, claim.party, local_node(mesh, claim.node), claim.surface, claim.size, 0,
-                        claim.radius});
+      nodes_.push_back({id, claim.party, local_node(mesh, claim.node), claim.surface, claim.size, 0, claim.radius});
     }
     SurfaceNode& node = nodes_.back();
     node.surface = std::min(node.surface, claim.surface);

@@ -15,13 +15,13 @@ namespace tenon::contact {
 
 /// A node of a surface, on the rank that owns it.
 struct SurfaceNode {
-  GlobalId id;             ///< over all parties
+  GlobalId id;  ///< over all parties
   std::int32_t party;
-  LocalIndex node;         ///< in the party's mesh
-  std::int32_t surface;    ///< the least of its faces
-  double size;             ///< m: least height of its faces, undeformed
-  double area;             ///< m^2: its share of its faces, undeformed
-  double radius;           ///< m: half the greatest thickness of its faces, or that of a particle
+  LocalIndex node;       ///< in the party's mesh
+  std::int32_t surface;  ///< the least of its faces
+  double size;           ///< m: least height of its faces, undeformed
+  double area;           ///< m^2: its share of its faces, undeformed
+  double radius;         ///< m: half the greatest thickness of its faces, or that of a particle
 };
 
 /// A corner of a face or an edge: who it is and where it is kept.

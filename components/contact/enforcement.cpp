@@ -230,8 +230,7 @@ void Enforcement::move(std::span<const Constraint> constraints, std::span<const 
         add(nodes[n].mobility.body, sum_[n],
             nodes[n].place - bodies[static_cast<std::size_t>(nodes[n].mobility.body)].state.pivot);
     for (const Constraint& q : constraints)
-      if (q.body >= 0 && set_.pairs()[static_cast<std::size_t>(q.pair)].primary)
-        add(q.body, -1.0 * impulse(q), {});
+      if (q.body >= 0 && set_.pairs()[static_cast<std::size_t>(q.pair)].primary) add(q.body, -1.0 * impulse(q), {});
     std::vector<double> totals(sums.size());
     comm_.sum(sums, totals);
     for (std::size_t b = 0; b < bodies.size(); ++b) {

@@ -14,9 +14,9 @@ namespace tenon::contact {
 
 /// A node in a step.
 struct NodeState {
-  Vec3 place{};     ///< m, at the start
-  Vec3 velocity{};  ///< m/s, by all other forces
-  Vec3 former{};    ///< m/s, before the kick
+  Vec3 place{};       ///< m, at the start
+  Vec3 velocity{};    ///< m/s, by all other forces
+  Vec3 former{};      ///< m/s, before the kick
   Mobility mobility;  ///< body: index in the bodies of all parties
 };
 
@@ -35,9 +35,9 @@ struct Constraint {
   std::array<LocalIndex, 5> node{};
   std::array<double, 5> c{};
   Vec3 normal{};
-  double gap = 0;          ///< m, at the start
-  double target = 0;       ///< m/s
-  Vec3 tangent_target{};   ///< m/s
+  double gap = 0;         ///< m, at the start
+  double target = 0;      ///< m/s
+  Vec3 tangent_target{};  ///< m/s
   double static_coefficient = 0, kinetic_coefficient = 0;
   bool couple = false;
   std::array<double, 9> turn{};  ///< rows
@@ -46,7 +46,7 @@ struct Constraint {
   Vec3 body_arm{};
   Vec3 surface_velocity{}, former_surface_velocity{};  ///< of a rigid surface that moves as told
 
-  Vec3 impulse{};   ///< N s, on the first side
+  Vec3 impulse{};  ///< N s, on the first side
   Vec3 extrapolated{};
   double inverse = 0;  ///< kg: 1 / (bound on what an impulse changes)
   bool sticks = false;
@@ -83,8 +83,8 @@ class Enforcement {
   };
   /// Collective. Fills impulses (which may start from a guess); velocities() are then those after them.
   Report solve(std::span<Constraint> constraints, std::span<const NodeState> nodes, std::vector<Body>& bodies);
-  /// Collective. Adds impulses to the chosen constraints that give each the energy (J) that it has stored, or less where
-  /// they share nodes. `energy` is zero for those that are not released.
+  /// Collective. Adds impulses to the chosen constraints that give each the energy (J) that it has stored, or less
+  /// where they share nodes. `energy` is zero for those that are not released.
   void release(std::span<Constraint> constraints, std::span<const NodeState> nodes, std::vector<Body>& bodies,
                std::span<const double> energy);
 

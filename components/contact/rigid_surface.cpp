@@ -41,8 +41,8 @@ double MovingSurface::distance(const Vec3& x) const {
   return options_.hollow ? options_.radius - r : r - options_.radius;
 }
 
-bool MovingSurface::touch(const Vec3& x0, const Vec3& x1, const Vec3& velocity, double dt, double radius,
-                          double margin, RigidTouch& touch) const {
+bool MovingSurface::touch(const Vec3& x0, const Vec3& x1, const Vec3& velocity, double dt, double radius, double margin,
+                          RigidTouch& touch) const {
   const Vec3 start = x0 - (options_.point + shift_), end = x1 - (options_.point + shift_) - dt * velocity;
   if (options_.shape == RigidSurface::Shape::plane) {
     touch.normal = options_.direction;
@@ -55,7 +55,8 @@ bool MovingSurface::touch(const Vec3& x0, const Vec3& x1, const Vec3& velocity, 
   if (!options_.hollow && norm(a) > reach) {  // where it enters first: |a + t way| = reach
     const double aa = dot(way, way), half = dot(a, way), c = dot(a, a) - reach * reach;
     const double root = half * half - aa * c;
-    if (aa > 0 && half < 0 && root > 0 && -half - std::sqrt(root) < aa) foot = a + ((-half - std::sqrt(root)) / aa) * way;
+    if (aa > 0 && half < 0 && root > 0 && -half - std::sqrt(root) < aa)
+      foot = a + ((-half - std::sqrt(root)) / aa) * way;
   }
   const double length = norm(foot);
   if (!(length > 0)) return false;

@@ -14,8 +14,8 @@ namespace {
 struct FaceRecord {
   GlobalId id;
   std::array<NodeRef, 4> corners;
-  std::int32_t count, surface, two_sided;
-  double radius, depth, size;
+  std::int32_t count, surface, two_sided, party;
+  double radius, depth;
 };
 
 /// An edge likewise.
@@ -118,7 +118,7 @@ void WorkingSet::add_node_faces(const CandidateSearch& search) {
     const SurfaceFace& face = faces[f];
     FaceRecord& record = own[f];
     record.id = face.id, record.count = face.count(), record.surface = face.surface;
-    record.two_sided = face.two_sided ? 1 : 0;
+    record.two_sided = face.two_sided ? 1 : 0, record.party = face.party;
     record.radius = face.radius, record.depth = face.depth;
     for (std::size_t k = 0; k < 4; ++k) record.corners[k] = reference(face.corners[k]);
   }
@@ -141,6 +141,7 @@ void WorkingSet::add_node_faces(const CandidateSearch& search) {
     pair.node[0] = {node.id, found[i].first, -1};
     std::copy_n(face.corners.begin(), face.count, pair.node.begin() + 1);
     if (shares_node(pair, 1)) continue;
+    pair.shells = pair.two_sided && node.radius > 0 && node.party == face.party;
     pair.clearance = node.radius + face.radius, pair.depth = face.depth, pair.margin = near_share * node.size;
     records_.push_back(pair);
   }
@@ -265,8 +266,7 @@ void WorkingSet::send_records() {
 
 void WorkingSet::connect() {
   std::vector<NodeRef> refs;
-  for (const PairRecord& pair : arrived_)
-    refs.insert(refs.end(), pair.node.begin(), pair.node.begin() + pair.nodes);
+  for (const PairRecord& pair : arrived_) refs.insert(refs.end(), pair.node.begin(), pair.node.begin() + pair.nodes);
   std::ranges::sort(refs, {}, &NodeRef::id);
   refs.erase(std::unique(refs.begin(), refs.end(), [](const NodeRef& a, const NodeRef& b) { return a.id == b.id; }),
              refs.end());
@@ -280,10 +280,19 @@ void WorkingSet::connect() {
   pairs_.clear();
   pairs_.reserve(arrived_.size());
   for (const PairRecord& record : arrived_) {
-    WorkingPair pair{record.key,       record.nodes,           record.two_sided,
-                     record.first_surface, record.second_surface, {no_index, no_index, no_index, no_index, no_index},
-                     record.clearance, record.depth,           record.margin,
-                     record.first_outward, record.second_outward, record.memory,
+    WorkingPair pair{record.key,
+                     record.nodes,
+                     record.two_sided,
+                     record.shells,
+                     record.first_surface,
+                     record.second_surface,
+                     {no_index, no_index, no_index, no_index, no_index},
+                     record.clearance,
+                     record.depth,
+                     record.margin,
+                     record.first_outward,
+                     record.second_outward,
+                     record.memory,
                      record.node[0].part == comm_.rank()};
     for (std::int32_t k = 0; k < record.nodes; ++k)
       pair.node[static_cast<std::size_t>(k)] = local(record.node[static_cast<std::size_t>(k)].id);

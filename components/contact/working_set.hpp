@@ -17,7 +17,7 @@ namespace tenon::contact {
 
 /// Names a pair, the same on every rank; the order in which sums are taken.
 struct PairKey {
-  std::int64_t kind;  ///< 0 node and face, 1 node and rigid surface, 2 edge and edge
+  std::int64_t kind;            ///< 0 node and face, 1 node and rigid surface, 2 edge and edge
   std::array<GlobalId, 4> ids;  ///< node, face | node, surface | ends of the first edge, ends of the second
   auto operator<=>(const PairKey&) const = default;
 };
@@ -42,11 +42,12 @@ struct PairRecord {
   PairKey key;
   std::int32_t nodes = 0;  ///< count
   bool two_sided = false;
+  bool shells = false;  ///< both sides, of one party
   std::int32_t first_surface = 0, second_surface = 0;
   std::array<NodeRef, 5> node;
-  double clearance = 0;  ///< m, between the mid-surfaces
-  double depth = 0;      ///< m
-  double margin = 0;     ///< m: pairs farther apart than this are of no interest
+  double clearance = 0;                    ///< m, between the mid-surfaces
+  double depth = 0;                        ///< m
+  double margin = 0;                       ///< m: pairs farther apart than this are of no interest
   Vec3 first_outward{}, second_outward{};  ///< of edges
   PairMemory memory;
 };
@@ -55,7 +56,7 @@ struct PairRecord {
 struct WorkingPair {
   PairKey key;
   std::int32_t nodes;
-  bool two_sided;
+  bool two_sided, shells;
   std::int32_t first_surface, second_surface;
   std::array<LocalIndex, 5> node;
   double clearance, depth, margin;
@@ -113,10 +114,10 @@ class WorkingSet {
   SearchDecomposition decomposition_;
   Rcb rcb_;
   bool any_ = false;
-  std::vector<PairRecord> records_;  // at the homes of first nodes, ascending by key
+  std::vector<PairRecord> records_;                       // at the homes of first nodes, ascending by key
   std::vector<std::pair<PairKey, PairMemory>> memories_;  // of the pairs before, likewise
   std::vector<LocalIndex> busy_;
-  std::vector<LocalIndex> busy_slot_;   // of all home nodes: place in busy_, or no_index
+  std::vector<LocalIndex> busy_slot_;    // of all home nodes: place in busy_, or no_index
   std::vector<std::int32_t> home_part_;  // of home nodes
   std::vector<float> home_work_;
   std::vector<WorkingPair> pairs_;

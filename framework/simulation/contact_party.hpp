@@ -94,6 +94,8 @@ class ContactParty {
   /// `contact_work`.
   virtual void push(std::span<const LocalIndex> nodes, std::span<const Vec3> impulses,
                     std::span<const BodyImpulse> bodies) = 0;
+  /// Collective, before the first step. Moves owned nodes (m) without stress or strain.
+  virtual void shift(std::span<const LocalIndex> nodes, std::span<const Vec3> by) = 0;
   /// This rank's share of the work of all pushes since the start, J; row `contact_work` of the party.
   virtual ExactSum contact_work() const = 0;
 
