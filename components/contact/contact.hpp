@@ -12,6 +12,8 @@
 #include "components/contact/enforcement.hpp"
 #include "components/contact/rigid_surface.hpp"
 #include "components/contact/working_set.hpp"
+#include "components/contact_geometry/choose_touches.hpp"
+#include "components/contact_geometry/edge_touch.hpp"
 #include "framework/simulation/interaction.hpp"
 
 namespace tenon {
