@@ -10,6 +10,8 @@
 
 #include "apps/tenon/scene_meshes.hpp"
 #include "apps/tenon/scene_schema.hpp"
+#include "components/contact/contact.hpp"
+#include "components/contact/scene_block.hpp"
 #include "components/materials/read_material.hpp"
 #include "components/mechanics/mechanics.hpp"
 #include "components/mechanics/scene_block.hpp"
@@ -205,6 +207,47 @@ void add_transfers(const LoadedScene& scene, Simulation& simulation, Diagnostics
   }
 }
 
+// Before anything asks for fields: parties show those of contact once they are in it.
+void add_contact(const Communicator& comm, const LoadedScene& scene, Simulation& simulation, Diagnostics& diagnostics) {
+  if (!scene.value.has("contact")) return;
+  const Value block = scene.value.child("contact");
+  const ContactOptions options = read_contact(block, diagnostics);
+  std::vector<Component*> parties;
+  std::vector<std::string> names;
+  for (const auto& component : simulation.components()) names.push_back(component->name());
+  const auto take = [&](Component& component) {
+    try {
+      if (ContactParty* party = component.contact_party()) {
+        party->contact_fields();
+        parties.push_back(&component);
+        return true;
+      }
+    } catch (const Error& problem) {
+      diagnostics.error(block.where(), problem.what());
+    }
+    return false;
+  };
+  if (block.has("components")) {
+    for (const std::string& name : block.texts("components")) {
+      Component* component = simulation.find(name);
+      if (!component)
+        diagnostics.error(block.where("components"),
+                          "components: there is no component '" + name + "'" + scene::suggestion(name, names));
+      else if (!take(*component) && !diagnostics.any())
+        diagnostics.error(block.where("components"),
+                          "components: '" + name + "' has no surface that could touch anything; leave it out");
+    }
+  } else {
+    for (const auto& component : simulation.components()) take(*component);
+  }
+  if (diagnostics.any()) return;
+  try {
+    simulation.add(std::make_unique<Contact>("contact", comm, std::move(parties), options));
+  } catch (const Error& problem) {
+    diagnostics.error(block.where(), problem.what());
+  }
+}
+
 std::vector<std::string> shown_fields(Component& component) {
   std::vector<std::string> names;
   for (const ExportPort& port : component.exports())
@@ -291,6 +334,7 @@ BuiltScene build_simulation(const Communicator& comm, Log& log, const LoadedScen
   built.simulation = std::make_unique<Simulation>(comm, log, start, end);
   built.simulation->limit_steps(scene.value.integer("maximum_steps"));
   distribute_to(comm, meshes, planned, *built.simulation);
+  add_contact(comm, scene, *built.simulation, diagnostics);
   add_transfers(scene, *built.simulation, diagnostics);
   built.output = read_output(scene, *built.simulation, diagnostics);
   diagnostics.throw_if_any();
@@ -302,6 +346,8 @@ void print_warnings(Log& log, const BuiltScene& built) {
   for (const std::string& warning : built.warnings) log.warning(warning);
   for (const auto& component : built.simulation->components())
     for (const std::string& warning : component->warnings()) log.warning(warning);
+  for (const auto& interaction : built.simulation->interactions())
+    for (const std::string& warning : interaction->warnings()) log.warning(warning);
 }
 
 }  // namespace tenon

@@ -4,6 +4,7 @@
 #include <charconv>
 
 #include "apps/tenon/scene_meshes.hpp"
+#include "components/contact/scene_block.hpp"
 #include "components/materials/read_material.hpp"
 #include "components/mechanics/scene_block.hpp"
 #include "components/thermal/scene_block.hpp"
@@ -116,6 +117,7 @@ Schema scene_schema() {
              {{"explicit_mechanics", mechanics_schema()}, {"heat_conduction", thermal_schema()}},
              "Physics components by name. Each has a mesh, a decomposition and a time step of its own.")
       .required();
+  s.object("contact", contact_schema(), "Contact between and within bodies.");
   s.named("transfers", transfer_schema(), "Exchanges between components by name.");
   s.object("output", output_schema(), "What is written, and how often.");
   return s;

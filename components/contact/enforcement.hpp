@@ -52,13 +52,6 @@ struct Constraint {
   bool sticks = false;
 };
 
-/// dv of a node by an impulse.
-inline Vec3 moved(const Mobility& m, const Vec3& p) {
-  const std::array<double, 6>& w = m.w;
-  return {w[0] * p[0] + w[3] * p[1] + w[5] * p[2], w[3] * p[0] + w[1] * p[1] + w[4] * p[2],
-          w[5] * p[0] + w[4] * p[1] + w[2] * p[2]};
-}
-
 /// Share of node i in an impulse on the first side.
 Vec3 share(const Constraint& constraint, std::size_t i, const Vec3& impulse);
 /// Relative velocity that is conjugate to the impulse: power = impulse . it.

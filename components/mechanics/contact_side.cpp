@@ -33,13 +33,35 @@ std::vector<std::string> ContactSide::surface_names() const {
   return names;
 }
 
+// In the middle of a step, the velocity of before the kick is found again for nodes that were not watched; along held
+// directions it stays unknown, where it does not matter: contact and reaction take it with opposite signs.
 void ContactSide::watch(std::span<const LocalIndex> nodes) {
+  std::vector<Vec3> former(nodes.size()), impulse(nodes.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const auto n = static_cast<std::size_t>(nodes[i]);
+    if (place_[n] >= 0) {
+      former[i] = former_[static_cast<std::size_t>(place_[n])],
+      impulse[i] = impulse_[static_cast<std::size_t>(place_[n])];
+      continue;
+    }
+    const double* f = parts_.nodes.force[n].v;
+    former[i] = parts_.nodes.velocity()[n] + kick_ * moved(mobility(nodes[i]), {f[0], f[1], f[2]});
+  }
   for (const LocalIndex n : watched_) place_[static_cast<std::size_t>(n)] = -1;
   watched_.assign(nodes.begin(), nodes.end());
   for (std::size_t i = 0; i < watched_.size(); ++i)
     place_[static_cast<std::size_t>(watched_[i])] = static_cast<std::int32_t>(i);
-  former_.assign(watched_.size(), {});
-  impulse_.assign(watched_.size(), {});
+  former_ = std::move(former), impulse_ = std::move(impulse);
+}
+
+void ContactSide::shift(std::span<const LocalIndex> nodes, std::span<const Vec3> by) {
+  const std::span<Vec3> x = parts_.nodes.position();
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const auto n = static_cast<std::size_t>(nodes[i]);
+    x[n] = x[n] + by[i];
+  }
+  parts_.mesh.node_halo.forward<Vec3>(x, x);
+  parts_.nodes.renew_reference();
 }
 
 void ContactSide::begin(double kick) {
@@ -76,9 +98,7 @@ void ContactSide::push_node(LocalIndex node, const Vec3& p) {
   const auto n = static_cast<std::size_t>(node);
   assert(place_[n] >= 0);
   const auto i = static_cast<std::size_t>(place_[n]);
-  const std::array<double, 6> w = mobility(node).w;
-  const Vec3 dv{w[0] * p[0] + w[3] * p[1] + w[5] * p[2], w[3] * p[0] + w[1] * p[1] + w[4] * p[2],
-                w[5] * p[0] + w[4] * p[1] + w[2] * p[2]};
+  const Vec3 dv = moved(mobility(node), p);
   Vec3& v = parts_.nodes.velocity()[n];
   v = v + dv;
   const Vec3 mean = 0.5 * (former_[i] + v);

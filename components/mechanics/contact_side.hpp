@@ -42,6 +42,7 @@ class ContactSide final : public ContactParty {
   std::vector<ContactRigidBody> contact_rigid_bodies() const override { return parts_.rigid.contact_bodies(); }
   void push(std::span<const LocalIndex> nodes, std::span<const Vec3> impulses,
             std::span<const BodyImpulse> bodies) override;
+  void shift(std::span<const LocalIndex> nodes, std::span<const Vec3> by) override;
   ExactSum contact_work() const override;
   ContactFields& contact_fields() override;
 

@@ -47,6 +47,10 @@ class NodalState {
   bool has_rotations() const { return !spin_.empty(); }
   /// Undeformed positions are kept for materials that need the deformation gradient.
   void keep_reference() { reference_ = position_; }
+  /// What stands is undeformed: before the first step only.
+  void renew_reference() {
+    if (!reference_.empty()) reference_ = position_;
+  }
 
   std::size_t size() const { return size_; }
   std::span<Vec3> position() { return {position_.data(), size_}; }  ///< m

@@ -38,6 +38,13 @@ struct Mobility {
   std::int32_t body = -1;  ///< index in rigid_bodies(), or -1
 };
 
+/// dv (m/s) of a node by an impulse (N s); not of rigid bodies.
+inline Vec3 moved(const Mobility& m, const Vec3& p) {
+  const std::array<double, 6>& w = m.w;
+  return {w[0] * p[0] + w[3] * p[1] + w[5] * p[2], w[3] * p[0] + w[1] * p[1] + w[4] * p[2],
+          w[5] * p[0] + w[4] * p[1] + w[2] * p[2]};
+}
+
 /// A rigid body of a party; the same on every rank. Rows of held components and axes are zero.
 struct ContactRigidBody {
   Vec3 inverse_mass{};                      ///< along x, y, z: 1/kg
