@@ -74,6 +74,7 @@ void CandidateSearch::run(double dt) {
   choose_skins(dt);
   make_boxes();
   face_search_.find(node_boxes_, face_boxes_, node_faces_);
+  surfaces_.around_nodes(face_normal_, around_);
   find_sharp_edges();
   edge_search_.find_within(edge_boxes_, edge_edges_);
   sought_ = true;
@@ -110,7 +111,7 @@ void CandidateSearch::make_boxes() {
     node_boxes_[n].inflate(skin_[n] + nodes[n].radius);
   }
   face_boxes_.assign(faces.size(), Box{});
-  planes_.resize(faces.size());
+  planes_.resize(faces.size()), face_normal_.resize(faces.size());
   for (std::size_t f = 0; f < faces.size(); ++f) {
     const std::span<const Vec3> x = surfaces_.parties()[static_cast<std::size_t>(faces[f].party)]->contact_positions();
     std::array<Vec3, 4> corner{};
@@ -125,6 +126,7 @@ void CandidateSearch::make_boxes() {
     const bool triangle = faces[f].count() == 3;
     planes_[f].normal = unit(triangle ? cross(corner[1] - corner[0], corner[2] - corner[0])
                                       : cross(corner[2] - corner[0], corner[3] - corner[1]));
+    face_normal_[f] = planes_[f].normal;
     planes_[f].centre = triangle ? (1.0 / 3) * (corner[0] + corner[1] + corner[2])
                                  : 0.25 * (corner[0] + corner[1] + corner[2] + corner[3]);
   }

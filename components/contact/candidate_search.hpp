@@ -40,6 +40,9 @@ class CandidateSearch {
   const std::vector<LocalIndex>& sharp_edges() const { return sharp_; }
   /// Of each of the sharp edges: mean outward normal of its faces; zero where both sides count.
   const std::vector<Vec3>& outward() const { return outward_; }
+  /// Normals of the faces of this rank, and of those around its nodes (ContactSurfaces::around_nodes), when sought.
+  std::span<const Vec3> face_normals() const { return face_normal_; }
+  const std::vector<Vec3>& normals_around() const { return around_; }
   /// Of nodes of this rank, m.
   std::span<const double> skins() const { return skin_; }
   /// Counted work of the last searches on this rank: box tests.
@@ -70,6 +73,7 @@ class CandidateSearch {
   double since_ = 0;         // time since the search, s
   std::vector<Vec3> place_;  // of nodes, when sought
   std::vector<double> skin_, corner_skin_, far_skin_, inverse_square_;
+  std::vector<Vec3> face_normal_, around_;
   std::vector<FacePlane> planes_, edge_planes_;
   std::vector<Box> node_boxes_, face_boxes_, edge_boxes_;
   std::vector<LocalIndex> sharp_;

@@ -29,6 +29,12 @@ std::vector<ContactParty*> parties_of(const std::vector<Component*>& components)
   return parties;
 }
 
+std::vector<std::string> names_of(const std::vector<Component*>& components) {
+  std::vector<std::string> names;
+  for (const Component* component : components) names.push_back(component->name());
+  return names;
+}
+
 }  // namespace
 
 Contact::Contact(std::string name, const Communicator& comm, std::vector<Component*> parties, ContactOptions options)
@@ -37,7 +43,7 @@ Contact::Contact(std::string name, const Communicator& comm, std::vector<Compone
       components_(std::move(parties)),
       parties_(parties_of(components_)),
       options_(std::move(options)),
-      surfaces_(comm, parties_),
+      surfaces_(comm, parties_, names_of(components_)),
       search_(comm, surfaces_, options_.decomposition),
       set_(comm, surfaces_, options_.decomposition),
       enforcement_(comm, set_) {

@@ -52,7 +52,8 @@ LocalIndex local_node(const Mesh& mesh, GlobalId id) {
 
 }  // namespace
 
-ContactSurfaces::ContactSurfaces(const Communicator& comm, std::vector<ContactParty*> parties)
+ContactSurfaces::ContactSurfaces(const Communicator& comm, std::vector<ContactParty*> parties,
+                                 std::vector<std::string> party_names)
     : comm_(comm), parties_(std::move(parties)), node_offsets_{0}, face_offsets_{0}, surface_offsets_{0} {
   constexpr GlobalId sides = 8;  // ids of faces: 8 element + side
   for (ContactParty* party : parties_) {
@@ -61,16 +62,16 @@ ContactSurfaces::ContactSurfaces(const Communicator& comm, std::vector<ContactPa
     face_offsets_.push_back(face_offsets_.back() + sides * mesh.global_elements);
     surface_offsets_.push_back(surface_offsets_.back() + static_cast<std::int32_t>(party->surface_names().size()));
   }
-  name_surfaces();
+  name_surfaces(party_names);
 }
 
-void ContactSurfaces::name_surfaces() {
+void ContactSurfaces::name_surfaces(const std::vector<std::string>& party_names) {
   std::multiset<std::string> all;
   for (ContactParty* party : parties_)
     for (const std::string& name : party->surface_names()) all.insert(name);
   for (std::size_t p = 0; p < parties_.size(); ++p)
     for (const std::string& name : parties_[p]->surface_names())
-      names_.push_back(all.count(name) > 1 ? "party" + std::to_string(p + 1) + "." + name : name);
+      names_.push_back(all.count(name) > 1 ? party_names[p] + "." + name : name);
 }
 
 bool ContactSurfaces::stale() const {
@@ -94,15 +95,23 @@ void ContactSurfaces::take_faces() {
   for (std::size_t p = 0; p < parties_.size(); ++p) {
     own.clear();
     parties_[p]->contact_faces(own);
-    for (const ContactFace& face : own)
+    const Mesh& mesh = parties_[p]->contact_mesh();
+    for (const ContactFace& face : own) {
+      std::array<GlobalId, 4> behind;
+      for (std::size_t k = 0; k < 4; ++k)
+        behind[k] = face.behind[k] == no_index
+                        ? no_id
+                        : node_offsets_[p] + mesh.node_ids[static_cast<std::size_t>(face.behind[k])];
       faces_.push_back({face_offsets_[p] + face.id,
                         static_cast<std::int32_t>(p),
                         face.nodes,
                         {},
+                        behind,
                         surface_offsets_[p] + face.surface,
                         0.5 * face.thickness,
                         face.depth,
                         face.two_sided});
+    }
   }
 }
 
@@ -146,8 +155,9 @@ void ContactSurfaces::find_nodes() {
     return node_offsets_[static_cast<std::size_t>(claim.party)] + claim.node;
   };
   std::ranges::sort(order, {}, [&](std::size_t i) { return std::pair(id_of(arrived[i]), arrived[i].face); });
-  nodes_.clear();
+  nodes_.clear(), claim_first_.clear();
   std::vector<LocalIndex> answers(arrived.size());
+  std::size_t seen = 0;
   for (const std::size_t i : order) {
     const NodeClaim& claim = arrived[i];
     const GlobalId id = id_of(claim);
@@ -155,12 +165,16 @@ void ContactSurfaces::find_nodes() {
       const Mesh& mesh = parties_[static_cast<std::size_t>(claim.party)]->contact_mesh();
       nodes_.push_back({id, claim.party, local_node(mesh, claim.node), claim.surface, claim.size, 0, claim.radius});
     }
+    if (claim_first_.size() < nodes_.size()) claim_first_.push_back(seen);
+    ++seen;
     SurfaceNode& node = nodes_.back();
     node.surface = std::min(node.surface, claim.surface);
     node.area += claim.area;
     node.size = std::min(node.size, claim.size), node.radius = std::max(node.radius, claim.radius);
     answers[i] = static_cast<LocalIndex>(nodes_.size() - 1);
   }
+  claim_first_.push_back(seen);
+  claim_order_ = std::move(order), claims_ = claims.size(), claim_plan_ = plan;
   std::vector<LocalIndex> places(claims.size());
   plan.reverse<LocalIndex>(answers, places);
 
@@ -268,6 +282,16 @@ void ContactSurfaces::find_edges() {
   std::iota(every.begin(), every.end(), LocalIndex{0});
   for (std::size_t e = 0; e < edges_.size(); ++e) edges_[e].ends[1].home = {far[e], places[e]};
   far_end_plan_ = ExchangePlan::from_owners(comm_, far, places, every, "contact edge ends");
+}
+
+void ContactSurfaces::around_nodes(std::span<const Vec3> face_normals, std::vector<Vec3>& result) const {
+  std::vector<Vec3> send(claims_), arrived(claim_order_.size());
+  std::size_t c = 0;
+  for (std::size_t f = 0; f < faces_.size(); ++f)
+    for (int k = 0; k < faces_[f].count(); ++k) send[c++] = faces_[f].two_sided ? Vec3{} : face_normals[f];
+  claim_plan_.forward<Vec3>(send, arrived);
+  result.resize(arrived.size());
+  for (std::size_t i = 0; i < arrived.size(); ++i) result[i] = arrived[claim_order_[i]];
 }
 
 LocalIndex ContactSurfaces::find_node(GlobalId id) const {

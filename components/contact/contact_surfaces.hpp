@@ -36,6 +36,7 @@ struct SurfaceFace {
   std::int32_t party;
   std::array<LocalIndex, 4> nodes;  ///< in the party's mesh; [3] no_index for a triangle
   std::array<Corner, 4> corners;
+  std::array<GlobalId, 4> behind;  ///< nodes of a solid's element that are not on the face, or no_id
   std::int32_t surface;
   double radius;  ///< m: half the thickness
   double depth;   ///< m
@@ -59,7 +60,7 @@ struct SurfaceEdge {
 /// Global ids of nodes ascend with the party and the mesh's ids, those of faces likewise; nothing depends on the ranks.
 class ContactSurfaces {
  public:
-  ContactSurfaces(const Communicator& comm, std::vector<ContactParty*> parties);
+  ContactSurfaces(const Communicator& comm, std::vector<ContactParty*> parties, std::vector<std::string> party_names);
 
   /// Collective. Takes the faces of all parties as they are now.
   void build();
@@ -89,6 +90,12 @@ class ContactSurfaces {
     edge_face_plan_.forward<T>(of_faces, result);
   }
 
+  /// Collective. The normals of the faces around every node, by ascending id of the faces: those of nodes()[n] are
+  /// normals_of(result, n). Of shells and particles zero: they have no outside.
+  void around_nodes(std::span<const Vec3> face_normals, std::vector<Vec3>& result) const;
+  std::span<const Vec3> normals_of(const std::vector<Vec3>& around, std::size_t node) const {
+    return std::span(around).subspan(claim_first_[node], claim_first_[node + 1] - claim_first_[node]);
+  }
   /// Collective. A value of the second end of every edge: from the node's owner; index as edges().
   template <typename T>
   void at_far_ends(std::span<const T> of_nodes, std::vector<T>& result) const {
@@ -105,7 +112,7 @@ class ContactSurfaces {
   void take_faces();
   void find_nodes();
   void find_edges();
-  void name_surfaces();
+  void name_surfaces(const std::vector<std::string>& party_names);
   Corner corner_of(std::size_t party, LocalIndex node) const;
 
   Communicator comm_;
@@ -119,7 +126,9 @@ class ContactSurfaces {
   std::vector<SurfaceEdge> edges_;
   std::vector<std::array<LocalIndex, 4>> face_slots_;
   LocalIndex corner_count_ = 0, edge_face_count_ = 0;
-  ExchangePlan corner_plan_, edge_face_plan_, far_end_plan_;
+  std::vector<std::size_t> claim_order_, claim_first_;  // of what faces say of nodes: by node and face
+  std::size_t claims_ = 0;
+  ExchangePlan claim_plan_, corner_plan_, edge_face_plan_, far_end_plan_;
 };
 
 }  // namespace tenon::contact

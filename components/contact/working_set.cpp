@@ -13,7 +13,9 @@ namespace {
 /// A face as others need to know it.
 struct FaceRecord {
   GlobalId id;
+  std::array<GlobalId, 4> behind;
   std::array<NodeRef, 4> corners;
+  Vec3 normal;
   std::int32_t count, surface, two_sided, party;
   double radius, depth;
 };
@@ -29,10 +31,19 @@ struct EdgeRecord {
 // Of the least height of a node's faces: what is farther off is of no interest, not even as a gap.
 constexpr double near_share = 0.1;
 
+// Of the element behind a face: a node that is deeper came from elsewhere.
+constexpr double reliable_depth = 0.5;
+
 struct KeyedMemory {
   PairKey key;
   PairMemory memory;
 };
+
+/// A node can only press on a face that faces one of its own: not on one that goes on in the same plane, as where two
+/// bodies meet edge to edge. Of a corner that points at a plane one normal has a share of 1/sqrt(3) in it.
+bool faces_against(const Vec3& of_node, const Vec3& of_face) {
+  return of_node == Vec3{} || dot(of_node, of_face) < -0.2;
+}
 
 NodeRef reference(const Corner& corner) {
   return {corner.id, corner.home, -1};
@@ -119,7 +130,8 @@ void WorkingSet::add_node_faces(const CandidateSearch& search) {
     FaceRecord& record = own[f];
     record.id = face.id, record.count = face.count(), record.surface = face.surface;
     record.two_sided = face.two_sided ? 1 : 0, record.party = face.party;
-    record.radius = face.radius, record.depth = face.depth;
+    record.radius = face.radius, record.depth = reliable_depth * face.depth, record.behind = face.behind;
+    record.normal = search.face_normals()[f];
     for (std::size_t k = 0; k < 4; ++k) record.corners[k] = reference(face.corners[k]);
   }
   std::vector<int> owners(found.size());
@@ -140,7 +152,11 @@ void WorkingSet::add_node_faces(const CandidateSearch& search) {
     pair.first_surface = node.surface, pair.second_surface = face.surface;
     pair.node[0] = {node.id, found[i].first, -1};
     std::copy_n(face.corners.begin(), face.count, pair.node.begin() + 1);
-    if (shares_node(pair, 1)) continue;
+    if (shares_node(pair, 1) || std::ranges::find(face.behind, node.id) != face.behind.end()) continue;
+    const std::span<const Vec3> around =
+        surfaces_.normals_of(search.normals_around(), static_cast<std::size_t>(found[i].first.index));
+    if (!pair.two_sided && std::ranges::none_of(around, [&](const Vec3& n) { return faces_against(n, face.normal); }))
+      continue;
     pair.shells = pair.two_sided && node.radius > 0 && node.party == face.party;
     pair.clearance = node.radius + face.radius, pair.depth = face.depth, pair.margin = near_share * node.size;
     records_.push_back(pair);
@@ -155,7 +171,7 @@ void WorkingSet::add_edges(const CandidateSearch& search) {
     const SurfaceEdge& edge = edges[static_cast<std::size_t>(search.sharp_edges()[s])];
     own[s].ends = {reference(edge.ends[0]), reference(edge.ends[1])};
     own[s].surface = edge.surface, own[s].two_sided = edge.two_sided ? 1 : 0;
-    own[s].radius = edge.radius, own[s].depth = edge.depth;
+    own[s].radius = edge.radius, own[s].depth = reliable_depth * edge.depth;
     own[s].size = surfaces_.nodes()[static_cast<std::size_t>(edge.ends[0].home.index)].size;
     own[s].outward = search.outward()[s];
   }

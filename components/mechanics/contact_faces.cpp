@@ -103,6 +103,9 @@ ContactFace ContactFaces::face(const Mesh& mesh, const MechanicsOptions& options
   const ElementGroups::Place place = groups.place(static_cast<std::size_t>(side.block), side.element);
   const double size = area(f.nodes, mesh.coordinates), volume = place.group->volume(place.element, mesh.coordinates);
   f.depth = size > 0 ? volume / size : 0;
+  std::size_t others = 0;
+  for (const LocalIndex n : block.nodes(side.element))
+    if (std::ranges::find(f.nodes, n) == f.nodes.end() && others < f.behind.size()) f.behind[others++] = n;
   return f;
 }
 

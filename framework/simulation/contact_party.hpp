@@ -18,10 +18,11 @@ namespace tenon {
 struct ContactFace {
   GlobalId id;                      ///< unique within the party and the same on any number of ranks
   std::array<LocalIndex, 4> nodes;  ///< local nodes, outward by the right-hand rule; [3] is no_index for a triangle
-  double thickness = 0;             ///< m, of shells; both sides touch at half of it
-  double depth = 0;                 ///< m, of solids: how far the element reaches behind the face
-  std::int32_t surface = 0;         ///< which of surface_names() it belongs to
-  bool two_sided = false;           ///< of shells
+  std::array<LocalIndex, 4> behind{no_index, no_index, no_index, no_index};  ///< the other nodes of a solid's element
+  double thickness = 0;      ///< m, of shells; both sides touch at half of it
+  double depth = 0;          ///< m, of solids: how far the element reaches behind the face
+  std::int32_t surface = 0;  ///< which of surface_names() it belongs to
+  bool two_sided = false;    ///< of shells
 };
 
 /// A node that touches as a ball: an SPH particle, or what is left of eroded elements.
