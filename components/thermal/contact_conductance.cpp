@@ -150,17 +150,29 @@ double ContactConductance::greatest_eigenvalue(std::span<const double> capacity,
   return greatest;
 }
 
+/// Heat that leaves a node b for the nodes across, W.
+double ContactConductance::out_of_finer(std::size_t b, std::span<const double> temperature) const {
+  double jump = 0;
+  for (std::size_t i = first_entry_[b]; i < first_entry_[b + 1]; ++i)
+    jump += coefficient_[i] * temperature[static_cast<std::size_t>(column_[i])];
+  return weight_[b] * jump;
+}
+
 double ContactConductance::power(std::size_t contact, std::span<const double> temperature) const {
-  ExactSum into;
+  ExactSum local;
+  for (std::size_t b = 0; b < owned_patches_; ++b)
+    if (patches_.patch[b].contact == static_cast<std::int64_t>(contact)) local.add(out_of_finer(b, temperature));
+  const double sum = mesh_.comm.sum(local);
+  return pairs_[contact].first_is_finer ? sum : -sum;
+}
+
+void ContactConductance::add_passed(double time, std::span<const double> temperature, const ConductionMatrix& matrix,
+                                    std::span<double> heat) const {
   for (std::size_t b = 0; b < owned_patches_; ++b) {
-    if (patches_.patch[b].contact != static_cast<std::int64_t>(contact)) continue;
-    double jump = 0;
-    for (std::size_t i = first_entry_[b]; i < first_entry_[b + 1]; ++i)
-      jump += coefficient_[i] * temperature[static_cast<std::size_t>(column_[i])];
-    into.add(weight_[b] * jump);
+    const bool out_of_first = pairs_[static_cast<std::size_t>(patches_.patch[b].contact)].first_is_finer;
+    const auto row = static_cast<std::size_t>(matrix.row_of_node()[static_cast<std::size_t>(node_[b])]);
+    heat[row] += (out_of_first ? time : -time) * out_of_finer(b, temperature);
   }
-  const double out_of_finer = mesh_.comm.sum(into);
-  return pairs_[contact].first_is_finer ? out_of_finer : -out_of_finer;
 }
 
 ContactPatch ContactConductance::patch(std::size_t p) const {

@@ -54,6 +54,10 @@ class ContactConductance {
   double greatest_eigenvalue(std::span<const double> capacity, const ConductionMatrix& matrix) const;
   /// Collective. Heat that passes from `first` to `second` of a contact, W. Temperatures of the width of the matrix.
   double power(std::size_t contact, std::span<const double> temperature) const;
+  /// Local. Adds time (s) times the heat that passes from `first` to `second` surfaces at these temperatures to the
+  /// rows of the nodes b, J.
+  void add_passed(double time, std::span<const double> temperature, const ConductionMatrix& matrix,
+                  std::span<double> heat) const;
   std::int64_t memory() const;
 
   /// Those whose b is owned come first, then those that owners of b have sent, by `plan`, to the owners of nodes
@@ -115,6 +119,7 @@ class ContactConductance {
   void send_patches();
   bool extend(ConductionMatrix& matrix);
   void place(const ConductionMatrix& matrix);
+  double out_of_finer(std::size_t owned_patch, std::span<const double> temperature) const;
   template <typename Use>
   void each_link(const Use& use) const;
 

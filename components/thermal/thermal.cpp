@@ -60,6 +60,7 @@ Thermal::Thermal(std::string name, std::shared_ptr<const Mesh> mesh, ThermalOpti
   make_loads();
   make_held();
   if (!options_.contacts.empty()) contact_ = std::make_unique<thermal::ContactConductance>(*mesh_, options_.contacts);
+  if (contact_) passed_.assign(rows, 0.0);
   if (contact_ && contact_->needs_pressure()) pressure_.assign(nodes, 0.0);
   if (!goes_by_stages()) return;
   for (std::vector<double>* v :

@@ -53,8 +53,8 @@ class Thermal : public Component {
   std::span<const double> temperature() const {
     return std::span(temperature_).first(static_cast<std::size_t>(mesh_->nodes()));
   }
-  /// Collective. Heat that passes now from the first to the second surface of a contact (in the order of the options),
-  /// W.
+  /// Collective. Heat that passes now from the first to the second surface of a contact (in the order of the options,
+  /// which have it), W.
   double contact_power(std::size_t contact) const { return contact_->power(contact, temperature_); }
   /// Greatest explicit step at the present geometry, s: 2 / bound of the greatest eigenvalue. Explicit stepper only.
   double stable_limit();
@@ -122,6 +122,7 @@ class Thermal : public Component {
   void find_contacts();
   void weigh_contacts(double at);
   void follow_contacts(double at);
+  void book_contacts(double weight, std::vector<double>& heat) const;
   void throw_if_inverted(const thermal::ConductionMatrix::BadElement& bad) const;
   std::string describe(LocalIndex block, LocalIndex element) const;
 
@@ -206,6 +207,8 @@ class Thermal : public Component {
   std::vector<double> right_side_;      // energy that the step brings each node before implicit terms, J
   std::vector<double> residual_;        // J
   std::vector<double> diagonal_, inverse_diagonal_;
+  std::vector<double> passed_,
+      pending_passed_;  // from first to second surfaces of contacts, of the taken and this step, J
   std::array<std::vector<double>, supplies> supplied_;  // J since the start; empty unless booked
   std::array<bool, supplies> booked_{};                 // supplies that the scene has
 

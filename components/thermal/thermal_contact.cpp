@@ -33,6 +33,11 @@ void Thermal::follow_contacts(double at) {
   find_stiffest();
 }
 
+// Heat that passes at the present temperatures in a time of `weight`; only to be shown.
+void Thermal::book_contacts(double weight, std::vector<double>& heat) const {
+  if (contact_) contact_->add_passed(weight, temperature_, matrix_, heat);
+}
+
 // Ghost nodes are refreshed from their owners when conductances are weighed.
 void Thermal::receive_pressure(std::span<const double> values) {
   pressed_ = true;

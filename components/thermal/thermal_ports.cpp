@@ -92,6 +92,7 @@ void Thermal::energies(std::vector<EnergyTerm>& terms) {
     if (kind != transferred && !booked_[kind]) continue;
     terms.emplace_back(EnergyTerm{rows[kind], EnergyTerm::Role::supplied, {}}).local.add(supplied_[kind]);
   }
+  if (contact_) terms.emplace_back(EnergyTerm{"contact_heat", EnergyTerm::Role::memo, {}}).local.add(passed_);
 }
 
 std::vector<HistoryValue> Thermal::history_values() {
@@ -114,6 +115,7 @@ std::vector<std::pair<std::string, std::vector<double>*>> Thermal::owned_state()
                                                     "prescribed",  "radiation", "steady"};
   std::vector<std::pair<std::string, std::vector<double>*>> state{
       {"initial_temperature", &initial_}, {"temperature_rise", &rise_}, {"waiting_heat", &waiting_heat_}};
+  if (contact_) state.emplace_back("contact_heat", &passed_);
   for (std::size_t kind = 0; kind < supplies; ++kind)
     if (kind == transferred || booked_[kind])
       state.emplace_back(std::string("supplied_") + names[kind], &supplied_[kind]);
@@ -153,7 +155,7 @@ void Thermal::load(const CheckpointReader& file) {
   const GlobalOrder owned(mesh_->comm, ids, mesh_->global_nodes);
   // A scene that restarts with other loads or another stepper books what it has not met before from zero on.
   for (const auto& [field, values] : owned_state())
-    if (!field.starts_with("supplied_") || file.has(name() + "." + field))
+    if ((!field.starts_with("supplied_") && field != "contact_heat") || file.has(name() + "." + field))
       file.array(name() + "." + field, owned, *values, 1);
   const GlobalOrder all(mesh_->comm, mesh_->node_ids, mesh_->global_nodes);
   file.array(name() + ".displacement", all, displacement_, 3);
@@ -177,6 +179,7 @@ std::int64_t Thermal::memory() const {
                                        &residual_, &diagonal_, &inverse_diagonal_})
     values += v->size();
   for (const std::vector<double>& v : supplied_) values += v.size();
+  values += passed_.size() + pending_passed_.size();
   for (const std::vector<double>& v : pending_) values += v.size();
   for (const std::vector<double>* v :
        {&rate_, &first_rate_, &mid_rate_, &target_, &start_rise_, &start_energy_, &given_, &received_})

@@ -41,6 +41,7 @@ void Thermal::book(double weight, double time) {
     pending_[kind][static_cast<std::size_t>(row)] += weight * power;
   });
   for (std::size_t k = 0; k < rate_.size(); ++k) given_[k] += weight * rate_[k];
+  book_contacts(weight, pending_passed_);
 }
 
 /// Above that of the initial temperature, J.
@@ -151,6 +152,7 @@ void Thermal::begin_stages() {
   for (std::size_t k = 0; k < rise_.size(); ++k) start_energy_[k] = node_energy(k);
   std::ranges::fill(given_, 0.0);
   for (std::vector<double>& p : pending_) std::ranges::fill(p, 0.0);
+  pending_passed_.assign(passed_.size(), 0.0);
 }
 
 /// Books a step that is taken. What a free node got but did not store (the solver's residual) waits for the next step;
@@ -159,6 +161,7 @@ void Thermal::end_stages() {
   const ScopedTimer timer(*update_time_);
   for (std::size_t kind = 0; kind < supplies; ++kind)
     for (std::size_t k = 0; k < pending_[kind].size(); ++k) supplied_[kind][k] += pending_[kind][k];
+  for (std::size_t k = 0; k < passed_.size(); ++k) passed_[k] += pending_passed_[k];
   const auto reaction = static_cast<std::size_t>(is_steady() ? steady : prescribed);
   for (std::size_t k = 0; k < rise_.size(); ++k) {
     const double stored = node_energy(k) - start_energy_[k];

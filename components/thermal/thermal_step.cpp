@@ -28,6 +28,7 @@ void Thermal::advance(double dt) {
 // The theta method with constant coefficients.
 void Thermal::advance_at_once(double dt) {
   gather_loads(dt);
+  book_contacts((1 - theta()) * dt, passed_);
   hold_prescribed(time() + dt);
   if (is_explicit())
     solve_explicit();
@@ -37,6 +38,7 @@ void Thermal::advance_at_once(double dt) {
   book_reactions(dt);
   apply_increment();
   show_temperatures();
+  book_contacts(theta() * dt, passed_);
 }
 
 // Energy (J) that the step brings to each node, as far as it is known before the new temperature. Convection at the

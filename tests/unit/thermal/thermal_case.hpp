@@ -73,6 +73,7 @@ inline Balance balance(Thermal& thermal) {
   Balance b;
   for (const EnergyTerm& term : terms) {
     const double value = thermal.mesh().comm.sum(term.local);
+    if (term.role == EnergyTerm::Role::memo) continue;
     (term.role == EnergyTerm::Role::stored ? b.stored : b.supplied) += value;
     b.size += std::abs(value);
   }

@@ -2,7 +2,7 @@
 // Iterations that the linear solution takes where bodies exchange heat, over the conductance and the size of the mesh.
 #include <gtest/gtest.h>
 
-#include "contact_case.hpp"
+#include "thermal_contact_case.hpp"
 
 namespace tenon::testing {
 namespace {

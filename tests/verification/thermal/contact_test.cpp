@@ -4,7 +4,7 @@
 
 #include <functional>
 
-#include "contact_case.hpp"
+#include "thermal_contact_case.hpp"
 
 namespace tenon::testing {
 namespace {
@@ -188,6 +188,16 @@ double lost_heat(Thermal& thermal) {
   return std::abs(balance(thermal).stored) / heat;
 }
 
+/// Of a bar of 0.1 m of hexahedra of one size, above 0 degrees, J.
+double heat_of(const Thermal& thermal, const std::string& block) {
+  const double per_volume = block == "a_box" ? 4e6 : 2e6;  // J/(m^3 K)
+  ExactSum sum;
+  const ElementBlock& b = *thermal.mesh().find_block(block);
+  for (const LocalIndex e : owned_elements(b, communicator().rank()))
+    for (const LocalIndex n : b.nodes(e)) sum.add(thermal.temperature()[static_cast<std::size_t>(n)]);
+  return per_volume * 0.1 * section * communicator().sum(sum) / (8 * static_cast<double>(b.global_count));
+}
+
 /// Greatest error at the four places.
 double transient_error(ThermalStepper stepper, int along, double dt, int across_b) {
   constexpr double end = 400, h = 1000;
@@ -201,6 +211,8 @@ double transient_error(ThermalStepper stepper, int along, double dt, int across_
   thermal.initialize();
   run_until(thermal, end);
   EXPECT_LT(lost_heat(thermal), 1e-12);
+  // What has passed is what the second body has.
+  EXPECT_NEAR(energy(thermal, "contact_heat"), heat_of(thermal, "b_box"), 1e-9 * heat_of(thermal, "b_box"));
   double error = 0;
   const char* sets[] = {"a_x_min", "a_x_max", "b_x_min", "b_x_max"};
   for (std::size_t i = 0; i < 4; ++i) {
@@ -220,6 +232,26 @@ TEST(Contact, TransientConvergesInSecondOrder) {
       EXPECT_NEAR(order, 2, 0.2);
       EXPECT_LT(fine, 0.1);
     }
+}
+
+// Heat that arises between two bodies is split as their effusivities sqrt(k rho c), however it is handed to their
+// surfaces: the contact does it.
+TEST(Contact, HeatOfTheInterfaceIsSplitByEffusivity) {
+  for (const double share : {0.0, 0.5, 1.0}) {
+    ThermalOptions options = two_bars(ThermalStepper::tr_bdf2, 50, 20);
+    options.fixed_step = 0.5;
+    options.contacts = {contact_of_ends(1e7)};
+    options.fluxes = {{"a_x_max", TimeFunction::constant(share * 1e5)},
+                      {"b_x_min", TimeFunction::constant((1 - share) * 1e5)}};
+    BoxShape a = bar_between(0, 0.1, 32, 2), b = bar_between(0.1, 0.2, 32, 3);
+    Thermal thermal("heat", distributed_pair(a, b), options);
+    thermal.initialize();
+    run_until(thermal, 20);  // the far ends feel nothing yet
+    const double first = std::sqrt(50 * 4e6), second = std::sqrt(20 * 2e6);
+    const double all = 1e5 * section * 20;
+    EXPECT_NEAR(heat_of(thermal, "a_box"), all * first / (first + second), 0.005 * all) << share;
+    EXPECT_NEAR(heat_of(thermal, "b_box"), all * second / (first + second), 0.005 * all) << share;
+  }
 }
 
 TEST(Contact, ExplicitStepKnowsOfTheContact) {

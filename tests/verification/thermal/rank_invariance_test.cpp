@@ -5,7 +5,7 @@
 
 #include <cstring>
 
-#include "contact_case.hpp"
+#include "thermal_contact_case.hpp"
 
 namespace tenon::testing {
 namespace {
@@ -122,12 +122,13 @@ void expect_same_state(const Case& c, const Mesh& mesh, const char* when) {
     EXPECT_EQ(mine.integer(integer), reference.integer(integer)) << c.name << ", " << when << ", " << integer;
   const GlobalOrder order(comm, mesh.node_ids, mesh.global_nodes);
   int supplies = 0;
-  for (const char* name : {"initial_temperature", "temperature_rise", "waiting_heat", "last_increment", "displacement",
-                           "supplied_transferred", "supplied_flux", "supplied_convection", "supplied_source",
-                           "supplied_prescribed", "supplied_radiation", "supplied_steady", "contact_pressure"}) {
+  for (const char* name :
+       {"initial_temperature", "temperature_rise", "waiting_heat", "last_increment", "displacement",
+        "supplied_transferred", "supplied_flux", "supplied_convection", "supplied_source", "supplied_prescribed",
+        "supplied_radiation", "supplied_steady", "contact_pressure", "contact_heat"}) {
     const bool supply = std::string(name).starts_with("supplied_");
     EXPECT_EQ(mine.has(std::string("heat.") + name), reference.has(std::string("heat.") + name)) << name;
-    if ((supply || std::string(name) == "contact_pressure") && !reference.has(std::string("heat.") + name)) continue;
+    if ((supply || std::string(name).starts_with("contact_")) && !reference.has(std::string("heat.") + name)) continue;
     supplies += supply ? 1 : 0;
     const int components = std::string(name) == "displacement" ? 3 : 1;
     std::vector<double> a(mesh.node_ids.size() * static_cast<std::size_t>(components)), b(a.size());
