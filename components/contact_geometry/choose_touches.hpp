@@ -19,10 +19,13 @@ struct Choice {
 
 /// Chooses among the touches of one node; `face_ids` ascending, `face_nodes` the ids of the corners (of a triangle the
 /// last is no_id or repeats another). Faces that share no corner are all kept. Of those that do:
-///  - a foot on a rim that the other face shares is that face's affair;
+///  - a foot on a rim that the other face shares is that face's affair, but in a concave fold, where it takes the
+///  normal
+///    of its own face: there is nothing round which it could turn;
 ///  - round a convex edge only one is kept: the space outside is that of either face. The one that was crossed last,
 ///    for a node behind both the one that it is behind least;
-///  - in a concave fold both are kept, but of nearly parallel ones (30 degrees) only that which is violated most;
+///  - in a concave fold both are kept, but of nearly parallel ones (15 degrees) only that which is violated most;
+///  - what is beyond a rim counts beside a touch of the neighbour alone, and after any that is not;
 ///  - faces taken from opposite sides: the one that is crossed first.
 /// At most four, those of the smallest end_gap, in ascending order of face ids. Returns how many.
 int choose_touches(std::span<const Touch> touches, std::span<const std::array<GlobalId, 4>> face_nodes,

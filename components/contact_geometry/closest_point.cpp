@@ -58,16 +58,20 @@ bool foot_in_triangle(const Patch& p, Place& place) {
   return true;
 }
 
-/// Sufficient for half the squared distance to be convex over the whole patch: then a stationary point is its minimum.
-/// Its Hessian is [p_xi.p_xi, p_xi.p_eta + p.twist; ., p_eta.p_eta], bounded by values at the centre.
-bool distance_is_convex(const Patch& p) {
-  const double twist = norm(p.twist);
-  const Vec3 a = p.along_xi(0.5), b = p.along_eta(0.5), c = p.at(0.5, 0.5);
-  const double la = norm(a), lb = norm(b);
-  const double low_a = la - 0.5 * twist, low_b = lb - 0.5 * twist;
-  if (low_a <= 0 || low_b <= 0) return false;
-  const double far = norm(c) + 0.5 * (la + lb) + 0.25 * twist;
-  return low_a * low_b > std::abs(dot(a, b)) + 0.5 * twist * (la + lb) + 0.25 * twist * twist + far * twist;
+/// Proves a stationary place (on the rim: one from which the distance does not fall inwards) to be the global minimum.
+/// Another place differs from it by D = dxi A + deta B, B = p_eta at the place and A = p_xi at the other eta, and its
+/// squared distance by at least |D|^2 - 2 dxi deta g.twist, g from the place to the origin. With |D|^2 >= 2 |dxi deta|
+/// (|A||B| - |A.B|) and |A||B| - |A.B| = |A x B|^2 / (|A||B| + |A.B|) it suffices that |A x B|^2 >= |g.twist| (|A||B| +
+/// |A.B|) for all A, which are between those of the two edges.
+bool is_global(const Patch& p, double xi, double eta) {
+  const double lift = std::abs(dot(p.at(xi, eta), p.twist));
+  if (lift == 0 && p.twist == Vec3{0, 0, 0}) return true;
+  const Vec3 b = p.along_eta(xi), end = p.a + p.twist;
+  const Vec3 middle = p.a + 0.5 * p.twist, normal = cross(middle, b);
+  const double m = std::min(dot(cross(p.a, b), normal), dot(cross(end, b), normal));
+  if (!(m > 0)) return false;
+  const double aa = std::max(dot(p.a, p.a), dot(end, end)), ab = std::max(std::abs(dot(p.a, b)), std::abs(dot(end, b)));
+  return m * m >= lift * (std::sqrt(aa * dot(b, b)) + ab) * dot(normal, normal);
 }
 
 /// Newton for a stationary point of the distance; true if it converged in the interior.
@@ -146,15 +150,16 @@ ClosestPoint closest_point(const FaceShape& face, const Vec3& x) {
   const bool triangle = corners.count == 3;
   const Patch patch =
       make_patch(corners.count, {d[corners.index[0]], d[corners.index[1]], d[corners.index[2]], d[corners.index[3]]});
-  const bool convex = !triangle && distance_is_convex(patch);
   Place inner{0.5, 0.5};
-  bool inside = triangle ? foot_in_triangle(patch, inner) : convex && newton(patch, inner, 8);
+  bool inside =
+      triangle ? foot_in_triangle(patch, inner) : newton(patch, inner, 8) && is_global(patch, inner.xi, inner.eta);
 
   ClosestPoint result;
   Place best = inner;
   if (!inside) {
     best = closest_on_rim(corners, d, result.weights);
-    if (!triangle && !(convex && !falls_inwards(patch, xi_of(false, result.weights), eta_of(false, result.weights)))) {
+    const double xi = xi_of(false, result.weights), eta = eta_of(false, result.weights);
+    if (!triangle && (falls_inwards(patch, xi, eta) || !is_global(patch, xi, eta))) {
       const Place stationary = best_stationary_point(patch);
       inside = stationary.squared < best.squared;
       if (inside) best = stationary;

@@ -27,20 +27,24 @@ struct Scene {
   CornerPositions start, end;
   double clearance, depth, margin;
   bool two_sided;
-  double size;  // m, longest edge or diagonal at the end
-  bool fast;    // travels far against the face's width
+  double size;    // m, longest edge or diagonal at the end
+  double width;   // m, twice the area over that
+  double travel;  // m, of the fastest corner relative to the node
+  bool fast;      // travels far against the face's width
 };
 
 /// Cheap, and never wrong: are the boxes of the two motions farther apart than `reach` along an axis?
 bool boxes_apart(const Vec3& node0, const Vec3& node1, const FaceShape& face0, const FaceShape& face1, double reach) {
+  const auto& x0 = face0.x;
+  const auto& x1 = face1.x;
+  const int last = face0.corners - 1;
   for (int c = 0; c < 3; ++c) {
-    double low = face0.x[0][c] - node0[c], high = low;
-    for (int i = 0; i < face0.corners; ++i) {
-      const double at0 = face0.x[i][c] - node0[c], at1 = face1.x[i][c] - node1[c];
-      low = std::min({low, at0, at1});
-      high = std::max({high, at0, at1});
-    }
-    if (!(low <= reach && high >= -reach)) return true;
+    const double n0 = node0[c] - reach, n1 = node1[c] - reach, m0 = node0[c] + reach, m1 = node1[c] + reach;
+    const double low0 = std::min(std::min(x0[0][c], x0[1][c]), std::min(x0[2][c], x0[last][c]));
+    const double low1 = std::min(std::min(x1[0][c], x1[1][c]), std::min(x1[2][c], x1[last][c]));
+    const double high0 = std::max(std::max(x0[0][c], x0[1][c]), std::max(x0[2][c], x0[last][c]));
+    const double high1 = std::max(std::max(x1[0][c], x1[1][c]), std::max(x1[2][c], x1[last][c]));
+    if ((low0 > m0 && low1 > m1) || (high0 < n0 && high1 < n1)) return true;
   }
   return false;
 }
@@ -69,7 +73,9 @@ bool measure(Scene& s) {
                                      : cross(s.end[2] - s.end[0], s.end[3] - s.end[1]);
   const double length = norm(normal);  // twice the area
   s.size = std::sqrt(size2);
-  s.fast = !(std::sqrt(travel2) * s.size <= slow_travel * length);
+  s.travel = std::sqrt(travel2);
+  s.width = s.size > 0 ? length / s.size : 0.0;
+  s.fast = !(s.travel <= slow_travel * s.width);
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (int i = 0; i < s.corners; ++i) {
     const double at0 = dot(normal, s.start[i]), at1 = dot(normal, s.end[i]);
@@ -87,9 +93,10 @@ FaceShape shape(const Scene& s, const CornerPositions& x) {
 
 /// Fills in what follows from weights, normals and corners; false if it is out of reach at the end.
 bool finish(const Scene& s, Touch& touch) {
-  touch.foot = weighted(s.end, touch.weights, s.corners);
-  touch.gap = -dot(touch.normal, weighted(s.start, touch.weights, s.corners)) - s.clearance;
-  touch.end_gap = -dot(touch.normal, touch.foot) - s.clearance;
+  touch.from = -1.0 * weighted(s.start, touch.weights, s.corners);
+  touch.to = -1.0 * weighted(s.end, touch.weights, s.corners);
+  touch.gap = dot(touch.normal, touch.from) - s.clearance;
+  touch.end_gap = dot(touch.normal, touch.to) - s.clearance;
   Vec3 sum = s.end[0];
   for (int i = 1; i < s.corners; ++i) sum = sum + s.end[i];
   touch.centre = (1.0 / s.corners) * sum;
@@ -141,18 +148,31 @@ bool crossing_touch(const Scene& s, const std::array<double, 4>& weights, double
   touch.normal = touch.face_normal = normal;
   touch.inside = all_positive(weights, s.corners);
   touch.time = time;
+  touch.beyond_rim = false;
   return finish(s, touch);
 }
 
-/// The node starts behind a solid's face, by no more than its depth and not beside its rim.
-bool starts_behind(const Scene& s, ClosestPoint& foot) {
+/// Where the node lies over the interior at the end, it did so at the start if it moved along the face by less than
+/// this.
+double room_to_rim(const Scene& s, const std::array<double, 4>& w) {
+  const bool triangle = s.corners == 3;
+  const double xi = xi_of(triangle, w), eta = eta_of(triangle, w);
+  const double far = triangle ? w[0] : std::min(1 - xi, 1 - eta);
+  return 0.25 * s.width * std::min(std::min(xi, eta), far);
+}
+
+enum class Start { front, behind, elsewhere };
+
+/// Where the node starts against a solid's face: behind it by no more than its depth and not beside its rim, or in
+/// front.
+Start start_of(const Scene& s, ClosestPoint& foot) {
   foot = closest_point(shape(s, s.start), {0, 0, 0});
-  if (foot.distance > s.depth + round_off * s.size) return false;
   const Vec3 normal = face_normal(shape(s, s.start), foot.weights);
   const double height = -dot(normal, foot.point);
-  if (height > round_off * s.size) return false;
+  if (height > 0) return Start::front;
+  if (foot.distance > s.depth + round_off * s.size) return Start::elsewhere;
   const Vec3 beside = foot.point + height * normal;
-  return foot.inside || norm(beside) <= valley * s.size;
+  return foot.inside || norm(beside) <= valley * s.size ? Start::behind : Start::elsewhere;
 }
 
 /// Touch of a node that does not cross the face, or so slowly that the foot of its end position is the right place.
@@ -195,8 +215,10 @@ bool rim_touch(const Scene& s, const Vec3& normal, const Vec3& from, const Vec3&
   }
   touch.normal = normal;
   if (!finish(s, touch)) return false;
-  if (norm(to - height1 * normal) <= valley * s.size && height0 >= -s.depth) return true;
-  return !s.fast && cross_face(s, weights, time);
+  const double beside = norm(to - height1 * normal), at_rim = valley * s.size;
+  touch.beyond_rim = !(beside <= at_rim && height0 >= -s.depth) && (s.fast || !cross_face(s, weights, time));
+  // It slides into a fold, or past the edge of a block: no farther than it travels.
+  return !touch.beyond_rim || (s.travel <= s.width && beside <= s.travel + at_rim);
 }
 
 }  // namespace
@@ -205,7 +227,7 @@ bool touch_face(const Vec3& node0, const Vec3& node1, const FaceShape& face0, co
                 double depth, bool two_sided, double margin, Touch& touch) {
   const double near = clearance + margin, reach = two_sided ? near : std::max(near, depth);
   if (boxes_apart(node0, node1, face0, face1, reach)) return false;
-  Scene s{face0.corners, {}, {}, clearance, depth, margin, two_sided, 0, false};
+  Scene s{face0.corners, {}, {}, clearance, depth, margin, two_sided, 0, 0, 0, false};
   for (int i = 0; i < s.corners; ++i) {
     s.start[i] = face0.x[i] - node0;
     s.end[i] = face1.x[i] - node1;
@@ -224,17 +246,25 @@ bool touch_face(const Vec3& node0, const Vec3& node1, const FaceShape& face0, co
   Vec3 from = -1.0 * weighted(s.start, foot.weights, s.corners), to = -1.0 * foot.point;
   double height0 = dot(normal, from), height1 = dot(normal, to);
   touch.time = 1;
+  touch.beyond_rim = false;
   if (!two_sided && (height0 < 0 || (s.fast && height1 < 0))) {
-    // Behind a solid's face: it belongs to the face only if it has been there from the start.
-    ClosestPoint first;
-    if (!starts_behind(s, first)) return false;
-    if (s.fast) foot = first;
-    normal = face_normal(shape(s, s.end), foot.weights);
-    if (normal == Vec3{0, 0, 0}) return false;
+    // Behind a solid's face: it belongs to the face only if it has been there from the start, or comes from the front
+    // (a warped face's normal is another at the start).
+    const bool clearly = !s.fast && foot.inside && -height0 <= std::min(depth, 0.1 * s.width) &&
+                         norm(from - height0 * normal) <= room_to_rim(s, foot.weights);
+    ClosestPoint first{};
+    const Start start = clearly ? Start::behind : start_of(s, first);
+    if (start == Start::elsewhere || (start == Start::front && s.fast && foot.inside)) return false;
+    if (start == Start::behind && s.fast) {
+      foot = first;
+      normal = face_normal(shape(s, s.end), foot.weights);
+      if (normal == Vec3{0, 0, 0}) return false;
+    }
     touch.weights = foot.weights;
     touch.inside = foot.inside;
     touch.normal = touch.face_normal = normal;
-    if (!s.fast && !foot.inside) return rim_touch(s, normal, from, to, touch);
+    if (!foot.inside && start == Start::front) return rim_touch(s, normal, from, to, touch);
+    if (!foot.inside && !s.fast && !first.inside) return rim_touch(s, normal, from, to, touch);
     return finish(s, touch);
   }
   if (out_of_reach && height1 > 0) return false;

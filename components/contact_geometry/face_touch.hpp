@@ -15,10 +15,11 @@ struct Touch {
   double end_gap;                 ///< m, the same at the end
   bool inside;                    ///< the foot is in the face's interior
   double time;                    ///< share of the step after which the node crosses the face; 1 if it does not
-  // At the end of the step, for the choice among neighbouring faces:
-  Vec3 face_normal;  ///< unit normal of the face at the foot, towards the node's side
-  Vec3 foot;         ///< m, place on the face, from the node
-  Vec3 centre;       ///< m, mean of the face's corners, from the node
+  // For the choice among neighbouring faces [choose_touches.hpp]:
+  bool beyond_rim;   ///< behind a solid's face and beside its rim without having crossed it
+  Vec3 face_normal;  ///< unit normal of the face at the place, towards the node's side
+  Vec3 from, to;     ///< m, the node relative to the place on the face, at start and end
+  Vec3 centre;       ///< m, mean of the face's corners relative to the node, at the end
 };
 
 /// False if node and face cannot touch in this step: farther apart than `margin` beyond the clearance at its end, and
@@ -31,6 +32,11 @@ struct Touch {
 /// Slow (relative travel small against the face): the foot is that of the end position. Fast: where the node first
 /// crosses the face [first_crossing.hpp]. On a rim the normal turns with the direction from the foot to the node.
 /// Depends on relative motion only.
+///
+/// A node that is stopped by one face slides on along it and may then meet another that its predicted motion did not.
+/// Where the motion is slow against the faces, neighbours across a fold are found all the same (beyond_rim). Where it
+/// is fast (a touch with time < 1), look again for the motion from the start to the constrained end, and keep what is
+/// found.
 bool touch_face(const Vec3& node0, const Vec3& node1, const FaceShape& face0, const FaceShape& face1, double clearance,
                 double depth, bool two_sided, double margin, Touch& touch);
 

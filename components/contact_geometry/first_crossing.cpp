@@ -14,6 +14,7 @@ constexpr double time_tolerance = 1e-12;
 // are this small against the patch.
 constexpr double converged = 1e-12;
 constexpr double smallest_piece = 1e-6;
+constexpr double smallest_flat_piece = 1e-3;
 constexpr int most_boxes = 2000;
 
 struct UnknownBox {
@@ -57,16 +58,17 @@ bool excluded(const Expansion& f, double noise) {
   return std::abs(dot(f.value, normal)) > spread(f, normal) * (1 + 1e-14) + noise * norm(normal);
 }
 
-enum class Outcome { excluded, reduced, stuck };
+enum class Outcome { excluded, reduced, stuck, flat };
 
 /// One step of interval Newton: every root of the box lies in y -+ e, y = -J^-1 F, e = |J^-1 higher terms|.
+/// Flat: the patch moves in its own plane, or so nearly that round-off hides the crossing's place.
 Outcome reduce(const Expansion& f, double noise, UnknownBox& box, const Vec3& middle, const Vec3& half) {
   const Vec3 r0 = cross(f.eta, f.time), r1 = cross(f.time, f.xi), r2 = cross(f.xi, f.eta);
   const double det = dot(f.xi, r0);
   const double scale = norm(f.xi) * norm(f.eta) * norm(f.time);
-  if (!(std::abs(det) > 1e-13 * scale)) return Outcome::stuck;
+  if (!(std::abs(det) > 1e-13 * scale)) return Outcome::flat;
   const double inverse = 1 / det;
-  bool smaller = false;
+  bool smaller = false, hidden = false;
   int k = 0;
   for (const Vec3& row : {r0, r1, r2}) {
     const double y = -inverse * dot(row, f.value);
@@ -81,14 +83,14 @@ Outcome reduce(const Expansion& f, double noise, UnknownBox& box, const Vec3& mi
     if (box.high[k] < box.low[k]) box.high[k] = box.low[k];
     ++k;
   }
-  return smaller ? Outcome::reduced : Outcome::stuck;
+  return smaller ? Outcome::reduced : hidden ? Outcome::flat : Outcome::stuck;
 }
 
 struct Search {
   const Patch& start;
   Patch motion;
   bool outside_only;
-  double noise = 0, small = 0;
+  double noise = 0, small = 0, small_flat = 0;
   std::array<UnknownBox, 256> stack{};
   int pending = 0;
   bool found = false;
@@ -108,7 +110,8 @@ struct Search {
       if (outcome == Outcome::reduced) continue;
       const Vec3 length{norm(f.xi), norm(f.eta), norm(f.time)};
       const int longest = length[2] >= std::max(length[0], length[1]) ? 2 : length[0] >= length[1] ? 0 : 1;
-      if (length[longest] < small || pending + 2 > static_cast<int>(stack.size())) return accept(middle);
+      const double least = outcome == Outcome::flat ? small_flat : small;
+      if (length[longest] < least || pending + 2 > static_cast<int>(stack.size())) return accept(middle);
       UnknownBox later = box;
       later.low[longest] = box.high[longest] = 0.5 * (box.low[longest] + box.high[longest]);
       stack[pending++] = later;
@@ -144,7 +147,9 @@ bool first_crossing(const Patch& start, const Patch& end, bool outside_only, Cro
                      start.triangle};
   Search search{start, motion, outside_only};
   search.noise = 2e-15 * (largest(start) + largest(motion));
-  search.small = smallest_piece * std::max(norm(start.a), norm(start.b));
+  const double size = std::max(norm(start.a), norm(start.b));
+  search.small = smallest_piece * size;
+  search.small_flat = smallest_flat_piece * size;
   search.stack[search.pending++] = {{-rim_tolerance, -rim_tolerance, -time_tolerance},
                                     {1 + rim_tolerance, 1 + rim_tolerance, 1 + time_tolerance}};
   for (int boxes = 0; search.pending > 0 && boxes < most_boxes; ++boxes) search.visit(search.stack[--search.pending]);

@@ -48,6 +48,34 @@ void halve(const Piece& whole, Piece& first, Piece& second) {
   second.high = whole.high;
 }
 
+double value(const Bernstein& b, double u) {
+  const double v = 1 - u, u2 = u * u, v2 = v * v;
+  return v2 * v2 * (v * b[0] + 5 * u * b[1]) + 10 * u2 * v2 * (v * b[2] + u * b[3]) +
+         u2 * u2 * (5 * v * b[4] + u * b[5]);
+}
+
+/// The one root of a piece whose end values differ in sign: regula falsi, the weight of an end that stays halved.
+double single_root(const Piece& piece) {
+  double low = 0, high = 1, at_low = piece.b[0], at_high = piece.b[n], root = 0.5;
+  for (int i = 0, last = 0; i < 60 && high - low > 1e-14; ++i) {
+    root = i % 8 == 7 ? 0.5 * (low + high) : (at_high * low - at_low * high) / (at_high - at_low);
+    const double at = value(piece.b, root);
+    if (at == 0) break;
+    if ((at > 0) == (at_low > 0)) {
+      low = root;
+      at_low = at;
+      if (last == -1) at_high *= 0.5;
+      last = -1;
+    } else {
+      high = root;
+      at_high = at;
+      if (last == 1) at_low *= 0.5;
+      last = 1;
+    }
+  }
+  return piece.low + root * (piece.high - piece.low);
+}
+
 }  // namespace
 
 int roots_in_unit_interval(const std::array<double, n + 1>& c, std::array<double, n>& roots) {
@@ -61,6 +89,10 @@ int roots_in_unit_interval(const std::array<double, n + 1>& c, std::array<double
     if (changes == 0) {
       // A root at the very end of the interval changes no sign inside it.
       if (piece.b[0] == 0 && (found == 0 || roots[found - 1] != piece.low)) roots[found++] = piece.low;
+      continue;
+    }
+    if (changes == 1 && piece.b[0] != 0 && piece.b[n] != 0) {
+      roots[found++] = single_root(piece);
       continue;
     }
     if (piece.high - piece.low < 0x1p-36) {
