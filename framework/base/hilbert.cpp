@@ -77,30 +77,54 @@ void HilbertCurve::codes_of(const EightCells& cells, std::array<std::uint64_t, 8
   for (std::size_t k = 0; k < 8; ++k) codes[k] = interleaved(x[0][k], x[1][k], x[2][k]);
 }
 
-// A radix sort by the upper 32 of the 48 bits, digit by digit, all digits counted at once; digits in which all agree
-// are skipped. Then few have neighbours with the same upper bits: those are sorted by the rest.
-void order_of_codes(CurveRoom& room, std::vector<LocalIndex>& order) {
-  constexpr std::size_t digits = 3;
-  constexpr int digit_bits = 11, upper_bits = 32, dropped_bits = 16;
-  constexpr std::uint64_t values = 1 << digit_bits;
-  const std::vector<std::uint64_t>& codes = room.codes;
-  const std::size_t count = codes.size();
-  std::array<std::array<std::uint32_t, values>, digits> begin{};
-  std::vector<std::uint64_t>&keys = room.keys, &other = room.other;  // upper bits of a code, and its index
-  keys.resize(count), other.resize(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::uint64_t upper = codes[i] >> dropped_bits;
-    keys[i] = upper << upper_bits | i;
-    for (std::size_t d = 0; d < digits; ++d) ++begin[d][upper >> (digit_bits * d) & (values - 1)];
+namespace {
+
+constexpr int upper_bits = 32,
+              dropped_bits = 16;  // of the 48: those that the radix sort takes, and those that are left
+constexpr int first_bits = 11, digit_bits = 7, digits = 3;
+constexpr std::uint64_t digit_values = 1 << digit_bits;
+
+// Sorts keys by their lower 21 upper bits, from `from` to `to`, which are used in turn.
+void sort_bucket(std::uint64_t* from, std::uint64_t* to, std::size_t count) {
+  constexpr std::size_t few = 48;
+  if (count <= few) {
+    std::copy_n(from, count, to);
+    std::sort(to, to + count);  // the index is part of the key
+    return;
   }
+  std::array<std::array<std::uint32_t, digit_values>, digits> begin{};
+  for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t d = 0; d < digits; ++d) ++begin[d][from[i] >> (upper_bits + digit_bits * d) & (digit_values - 1)];
   for (std::size_t d = 0; d < digits; ++d) {
     auto& next = begin[d];
-    if (std::find(next.begin(), next.end(), count) != next.end()) continue;
     std::exclusive_scan(next.begin(), next.end(), next.begin(), std::uint32_t{0});
     const std::size_t shift = upper_bits + digit_bits * d;
-    for (const std::uint64_t key : keys) other[next[key >> shift & (values - 1)]++] = key;
-    keys.swap(other);
+    for (std::size_t i = 0; i < count; ++i) to[next[from[i] >> shift & (digit_values - 1)]++] = from[i];
+    std::swap(from, to);
   }
+}
+
+}  // namespace
+
+// A radix sort by the upper 32 of the 48 bits: into buckets first, which then fit into a cache. Few keys have
+// neighbours with the same upper bits: those are sorted by the rest.
+void order_of_codes(CurveRoom& room, std::vector<LocalIndex>& order) {
+  constexpr std::size_t buckets = 1 << first_bits;
+  const std::vector<std::uint64_t>& codes = room.codes;
+  const std::size_t count = codes.size();
+  std::vector<std::uint64_t>&keys = room.keys, &other = room.other;  // upper bits of a code, and its index
+  keys.resize(count), other.resize(count);
+  const auto bucket_of = [](std::uint64_t code) { return code >> (48 - first_bits); };
+  std::array<std::uint32_t, buckets + 1> begin{};
+  for (const std::uint64_t code : codes) ++begin[bucket_of(code) + 1];
+  std::inclusive_scan(begin.begin(), begin.end(), begin.begin());
+  std::array<std::uint32_t, buckets> next;
+  std::copy_n(begin.begin(), buckets, next.begin());
+  for (std::size_t i = 0; i < count; ++i)
+    other[next[bucket_of(codes[i])]++] = codes[i] >> dropped_bits << upper_bits | i;
+  for (std::size_t b = 0; b < buckets; ++b)
+    if (begin[b + 1] > begin[b]) sort_bucket(other.data() + begin[b], keys.data() + begin[b], begin[b + 1] - begin[b]);
+
   const auto index = [](std::uint64_t key) { return static_cast<std::size_t>(key & 0xffffffff); };
   const auto before = [&](std::uint64_t a, std::uint64_t b) {
     const std::uint64_t code_a = codes[index(a)], code_b = codes[index(b)];

@@ -18,16 +18,36 @@ constexpr std::uint64_t below_diagonal = [] {
   return bits;
 }();
 
+using Eight = PackedBoxes::Eight;
+
+/// By how much each of the first boxes overlaps box k of the second group, in the direction in which that is least;
+/// negative if they are apart. Numbers that touch have the difference +0, so the sign tells.
+[[gnu::always_inline]] inline Eight depths(const PackedBoxes::Group& a, const PackedBoxes::Group& b, int k) {
+  const auto lesser = [](const Eight& x, const Eight& y) { return x < y ? x : y; };
+  const auto along = [&](std::size_t c) { return lesser(a.high[c] - b.low[c][k], b.high[c][k] - a.low[c]); };
+  return lesser(lesser(along(0), along(1)), along(2));
+}
+
 /// Bit 8 k + i is set if box i of the first group overlaps box k of the second.
 [[gnu::always_inline]] inline std::uint64_t overlaps(const PackedBoxes::Group& a, const PackedBoxes::Group& b) {
-  std::uint64_t all = 0;
+  std::uint64_t apart = 0;
+#pragma GCC unroll 8
+  for (int k = 0; k < eight; ++k) apart |= std::uint64_t{PackedBoxes::bits(depths(a, b, k))} << (eight * k);
+  return ~apart;
+}
+
+/// The same, and those that overlap by less than the margin.
+[[gnu::always_inline]] inline std::uint64_t overlaps(const PackedBoxes::Group& a, const PackedBoxes::Group& b,
+                                                     float margin, std::uint64_t& doubtful) {
+  std::uint64_t apart = 0, little = 0;
 #pragma GCC unroll 8
   for (int k = 0; k < eight; ++k) {
-    const std::array<float, 3> low{b.low[0][k], b.low[1][k], b.low[2][k]};
-    const std::array<float, 3> high{b.high[0][k], b.high[1][k], b.high[2][k]};
-    all |= std::uint64_t{PackedBoxes::bits(PackedBoxes::overlap(a, low, high))} << (eight * k);
+    const Eight depth = depths(a, b, k);
+    apart |= std::uint64_t{PackedBoxes::bits(depth)} << (eight * k);
+    little |= std::uint64_t{PackedBoxes::bits(depth - margin)} << (eight * k);
   }
-  return all;
+  doubtful = little & ~apart;
+  return ~apart;
 }
 
 // The greatest coordinate of all boxes, or infinity.
@@ -45,8 +65,7 @@ float extent(const PackedBoxes& packed) {
 }  // namespace
 
 void BoxJoin::build(std::span<const Box> first, std::span<const Box> second) {
-  Box bounds = PackedBoxes::bounds_of_centres(first);
-  if (const Box others = PackedBoxes::bounds_of_centres(second); !others.empty()) bounds.add(others);
+  const Box bounds = PackedBoxes::bounds_of_most(first, second);
   boxes_[0] = first, boxes_[1] = second, second_ = &packed_[1];
   packed_[0].build(first, bounds, room_);
   packed_[1].build(second, bounds, room_);
@@ -58,7 +77,7 @@ void BoxJoin::build(std::span<const Box> first, std::span<const Box> second) {
 
 void BoxJoin::build(std::span<const Box> boxes) {
   boxes_[0] = boxes_[1] = boxes, second_ = &packed_[0];
-  packed_[0].build(boxes, PackedBoxes::bounds_of_centres(boxes), room_);
+  packed_[0].build(boxes, PackedBoxes::bounds_of_most(boxes, {}), room_);
   margin_ =
       6 * std::numeric_limits<float>::epsilon() * extent(packed_[0]) + 8 * std::numeric_limits<float>::denorm_min();
 }
@@ -94,15 +113,11 @@ void BoxJoin::meet(int level, LocalIndex a, LocalIndex b) {
 void BoxJoin::meet_leaves(LocalIndex a, LocalIndex b) {
   tests_ += fan_out * fan_out;
   const Group &group_a = packed_[0].group(0, a), &group_b = second_->group(0, b);
-  std::uint64_t hits = overlaps(group_a, group_b);
-  if (second_ == &packed_[0] && a == b) hits &= below_diagonal;
+  std::uint64_t doubtful = 0, hits = overlaps(group_a, group_b, margin_, doubtful);
+  if (second_ == &packed_[0] && a == b) hits &= below_diagonal, doubtful &= below_diagonal;
   if (hits == 0) return;
   const LocalIndex *const index_a = packed_[0].indices_of_leaf(a), *const index_b = second_->indices_of_leaf(b);
-  // Those that overlap by more than the rounding surely do.
-  Group inner;
-  for (std::size_t c = 0; c < 3; ++c)
-    inner.low[c] = group_b.low[c] + margin_, inner.high[c] = group_b.high[c] - margin_;
-  for (std::uint64_t doubtful = hits & ~overlaps(group_a, inner); doubtful != 0; doubtful &= doubtful - 1) {
+  for (; doubtful != 0; doubtful &= doubtful - 1) {
     const int bit = std::countr_zero(doubtful);
     const auto i = static_cast<std::size_t>(index_a[bit % fan_out]),
                k = static_cast<std::size_t>(index_b[bit / fan_out]);

@@ -53,8 +53,8 @@ class BoxPairSearch {
     std::int64_t tests;           ///< comparisons of two boxes
     std::int64_t pairs;           ///< found here, those that another rank reports included
     std::int64_t boxes_received;  ///< sorted here, those of this rank included
-    /// All in one, about in nanoseconds of a core.
-    std::int64_t total() const { return 80 * boxes_received + tests + 12 * pairs; }
+    /// All in one, about in nanoseconds of a core, sending included.
+    std::int64_t total() const { return 150 * boxes_received + tests + 16 * pairs; }
   };
   const Work& work() const { return work_; }
   /// Searches so far, and those that made new cuts.
@@ -95,7 +95,8 @@ class BoxPairSearch {
   std::int64_t items_ = 0;     // boxes received on all ranks, last search
   std::int64_t all_work_ = 0;  // on all ranks, last search
   double lost_ = 0;            // work waited for since the last cuts, beyond what they left
-  double left_ = 0;            // greatest over mean work, less one, that cuts left at best
+  double left_ = 0;            // greatest over mean work, less one, that cuts leave: running average
+  bool fresh_ = false;         // no search since the last cuts
   bool cut_by_work_ = false;   // the last cuts knew the work of the items
 };
 

@@ -73,6 +73,35 @@ Box PackedBoxes::bounds_of_centres(std::span<const Box> boxes) {
   return bounds;
 }
 
+// The middle nine tenths and four times their extent on either side, but no more than the sample fills.
+Box PackedBoxes::bounds_of_most(std::span<const Box> first, std::span<const Box> second) {
+  constexpr std::size_t sample_of_set = 512;
+  std::array<std::array<double, 2 * sample_of_set>, 3> x;
+  std::size_t count = 0;
+  for (const std::span<const Box> boxes : {first, second}) {
+    const std::size_t stride = (boxes.size() + sample_of_set - 1) / sample_of_set;
+    for (std::size_t i = 0; i < boxes.size(); i += stride)
+      if (const Vec3 middle = centre(boxes[i]); is_finite(middle)) {
+        for (std::size_t c = 0; c < 3; ++c) x[c][count] = middle[c];
+        ++count;
+      }
+  }
+  Box bounds;
+  if (count == 0) return bounds;
+  double extent = 0;
+  Box middle;
+  for (std::size_t c = 0; c < 3; ++c) {
+    std::sort(x[c].begin(), x[c].begin() + static_cast<std::ptrdiff_t>(count));
+    middle.low[c] = x[c][count / 20], middle.high[c] = x[c][count - 1 - count / 20];
+    extent = std::max(extent, middle.high[c] - middle.low[c]);
+  }
+  for (std::size_t c = 0; c < 3; ++c) {
+    bounds.low[c] = std::max(x[c][0], middle.low[c] - 4 * extent);
+    bounds.high[c] = std::min(x[c][count - 1], middle.high[c] + 4 * extent);
+  }
+  return bounds;
+}
+
 void PackedBoxes::build(std::span<const Box> boxes, const Box& bounds, CurveRoom& room) {
   origin_ = bounds.empty() ? Vec3{} : centre(bounds);
   HilbertCurve(bounds).order(
@@ -95,15 +124,21 @@ void PackedBoxes::refit(std::span<const Box> boxes) {
   fill_upper_levels();
 }
 
+// Starts to bring boxes from memory.
+void PackedBoxes::fetch(std::span<const Box> boxes, std::size_t first, std::size_t count) const {
+  for (std::size_t i = first; i < std::min(first + count, order_.size()); ++i) {
+    const Box* const next = &boxes[static_cast<std::size_t>(order_[i])];
+    __builtin_prefetch(next), __builtin_prefetch(&next->high[2]);
+  }
+}
+
 void PackedBoxes::fill_leaves(std::span<const Box> boxes) {
-  constexpr std::size_t ahead = 24;  // boxes on their way from memory
+  constexpr std::size_t ahead = 32;
   const std::size_t leaves = level_begin_[1], size = order_.size();
+  fetch(boxes, 0, ahead);
   for (std::size_t g = 0; g < leaves; ++g) {
     const std::size_t first = g * fan_out, count = std::min<std::size_t>(fan_out, size - first);
-    for (std::size_t i = first + ahead; i < std::min(first + ahead + fan_out, size); ++i) {
-      const Box* const next = &boxes[static_cast<std::size_t>(order_[i])];
-      __builtin_prefetch(next), __builtin_prefetch(&next->high[2]);
-    }
+    fetch(boxes, first + ahead, fan_out);
     EightBoxes here;
     for (std::size_t k = 0; k < fan_out; ++k) {
       const Box box = k < count ? boxes[static_cast<std::size_t>(order_[first + k])] : Box();

@@ -36,6 +36,8 @@ class PackedBoxes {
   };
   /// Bounds of all centres that are finite.
   static Box bounds_of_centres(std::span<const Box> boxes);
+  /// Bounds, about, of most finite centres of two sets, by a sample: what few boxes far away do not stretch.
+  static Box bounds_of_most(std::span<const Box> first, std::span<const Box> second);
   static Vec3 centre(const Box& box);
 
   /// Sorts the boxes along the curve through these bounds. Floats hold what is relative to the bounds' centre, so that
@@ -68,19 +70,20 @@ class PackedBoxes {
     return (group.low[0] <= high[0]) & (group.high[0] >= low[0]) & (group.low[1] <= high[1]) &
            (group.high[1] >= low[1]) & (group.low[2] <= high[2]) & (group.high[2] >= low[2]);
   }
-  /// Bit k is set if lane k is.
+  /// Bit k is set if the sign of lane k is, as in lanes that are all ones.
   template <typename Lanes>
   static unsigned bits(const Lanes& lanes) {
 #ifdef __AVX__
     return static_cast<unsigned>(__builtin_ia32_movmskps256(std::bit_cast<Eight>(lanes)));
 #else
     unsigned mask = 0;
-    for (int k = 0; k < fan_out; ++k) mask |= lanes[k] ? 1u << k : 0u;
+    for (int k = 0; k < fan_out; ++k) mask |= std::signbit(std::bit_cast<Eight>(lanes)[k]) ? 1u << k : 0u;
     return mask;
 #endif
   }
 
  private:
+  void fetch(std::span<const Box> boxes, std::size_t first, std::size_t count) const;
   void fill_leaves(std::span<const Box> boxes);
   void fill_upper_levels();
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Contact, timed part by part.
-//   contact_bench search [--items N] [--repeats N]
+//   contact_bench search [sheet|shuffled|random|graded|coarse ...] [--items N] [--repeats N]
+//   mpirun -n 16 --oversubscribe contact_bench balance [--items N] [--stages N]
 #include <CLI/CLI.hpp>
 
+#include "balance_bench.hpp"
 #include "framework/comm/communicator.hpp"
 #include "search_bench.hpp"
 
@@ -11,6 +13,7 @@ int main(int argc, char** argv) {
   CLI::App app("Times contact.");
   app.require_subcommand(1);
   tenon::bench::add_search(app);
+  tenon::bench::add_balance(app);
   CLI11_PARSE(app, argc, argv);
   return 0;
 }

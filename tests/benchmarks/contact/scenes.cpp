@@ -81,4 +81,42 @@ BoxScene fine_and_coarse(std::int64_t items) {
   return scene;
 }
 
+namespace {
+
+// Where the point at angle (turns) and height of the whole can stands. Material that the wall has passed lies in folds,
+// five times as dense; the wall is higher on one side.
+Vec3 on_can(double turn, double height, double progress) {
+  constexpr double fold_height = 0.06, depth = 0.04, density = 5;
+  const double angle = two_pi * turn, wall = progress * (1 + 0.3 * std::cos(angle));
+  const double folded = std::min(height, wall);
+  const double z = folded / density + std::max(0.0, height - wall);
+  const double fold = std::min(1.0, (wall - folded) / fold_height) * std::min(1.0, wall / fold_height);
+  const double r = 0.5 + depth * fold * std::sin(two_pi * folded / fold_height + std::sin(5 * angle));
+  return {r * std::cos(angle), r * std::sin(angle), z};
+}
+
+}  // namespace
+
+BoxScene crumpled_can(std::int64_t items, double progress, int rank, int ranks) {
+  constexpr double height = 1.5, girth = std::numbers::pi;
+  const double h = std::sqrt(height * girth / static_cast<double>(items));
+  const int around = static_cast<int>(girth / h), up = static_cast<int>(height / h);
+  int columns = static_cast<int>(std::sqrt(2.0 * ranks));  // of patches
+  while (ranks % columns != 0) --columns;
+  const int rows = ranks / columns;
+  BoxScene scene{"crumpled can", {}, {}};
+  for (int k = 0; k < up; ++k)
+    for (int i = 0; i < around; ++i) {
+      if (k * rows / up * columns + i * columns / around != rank) continue;
+      Box box;
+      for (int corner = 0; corner < 4; ++corner)
+        box.add(on_can((i + corner % 2) / static_cast<double>(around), h * (k + corner / 2), progress));
+      box.inflate(0.3 * h);
+      scene.boxes.push_back(box);
+      const Vec3 x = on_can(i / static_cast<double>(around), h * k, progress);
+      scene.points.push_back({x, x});
+    }
+  return scene;
+}
+
 }  // namespace tenon::bench

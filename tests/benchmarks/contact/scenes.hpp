@@ -25,4 +25,9 @@ BoxScene random_boxes(std::int64_t items);
 /// A fine wavy sheet under one of facets a hundred times as long, which hold ten thousand points each.
 BoxScene fine_and_coarse(std::int64_t items);
 
+/// The share of one rank in about `items` faces and nodes of a can (diameter 1, height 1.5) that a slanting wall
+/// crumples from the bottom: at `progress` 0 it is whole, at 1 two thirds of it lie in folds. Ranks own patches of the
+/// whole can, as in a static decomposition.
+BoxScene crumpled_can(std::int64_t items, double progress, int rank, int ranks);
+
 }  // namespace tenon::bench

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "framework/search/box_join.hpp"
+#include "tests/support/allocation_counter.hpp"
 
 namespace tenon {
 namespace {
@@ -130,6 +131,23 @@ TEST(BoxJoin, OneBuildAfterAnother) {
   }
 }
 
+TEST(BoxJoin, AllocatesNothingOnceGrown) {
+  const std::vector<Box> boxes = scattered(3000, 11, 0.1), points = scattered(2000, 12, 0);
+  BoxJoin join;
+  std::vector<BoxJoin::Pair> between, within;
+  const auto search = [&] {
+    join.build(boxes, points);
+    join.find_pairs(between);
+    join.build(boxes);
+    join.find_pairs(within);
+  };
+  search();
+  const std::int64_t before = testing::allocations();
+  search();
+  EXPECT_EQ(testing::allocations(), before);
+  EXPECT_FALSE(between.empty() || within.empty());
+}
+
 // A hundredfold spread of sizes must not cost more than the pairs that it makes.
 TEST(BoxJoin, TestsGrowWithThePairs) {
   std::vector<Box> fine, points;
@@ -149,6 +167,27 @@ TEST(BoxJoin, TestsGrowWithThePairs) {
   join.find_pairs(found);
   EXPECT_EQ(found.size(), 20000u);
   EXPECT_LE(join.tests(), alone + 4 * 8 * 10000);  // eight comparisons per pair, and the groups above
+}
+
+// A fragment that has flown off, however far, must not make floats and curve blind to all the rest.
+TEST(BoxJoin, FewBoxesFarAwayCostNothing) {
+  std::vector<Box> boxes = scattered(4000, 10, 0), points = boxes;
+  for (Box& box : boxes) box.inflate(0.02);
+  BoxJoin join;
+  std::vector<BoxJoin::Pair> found;
+  join.build(boxes, points);
+  join.find_pairs(found);
+  const std::size_t pairs = found.size();
+  const std::int64_t tests = join.tests();
+  for (const double far : {1e3, 1e9, 1e30, 1e200}) {
+    std::vector<Box> others = boxes;
+    for (std::size_t i = 0; i < 5; ++i)
+      others.push_back({{far, -far, far * static_cast<double>(i)}, {2 * far, far, 1e3 * far}});
+    join.build(others, points);
+    join.find_pairs(found);
+    EXPECT_EQ(found.size(), pairs) << far;
+    EXPECT_LE(join.tests(), tests + tests / 2) << far;
+  }
 }
 
 }  // namespace

@@ -304,7 +304,7 @@ TEST(BoxPairSearch, ItemsFarFromTheCuts) {
 
 // Two sheets of which one is far denser: after a few searches all ranks work about as much.
 TEST(BoxPairSearch, WorkIsBalanced) {
-  std::mt19937 random(6);
+  std::mt19937 random(static_cast<unsigned>(6 + comm().rank()));
   std::uniform_real_distribution<double> u(0, 1);
   std::vector<Box> boxes;
   for (int i = 0; i < 40000 / comm().size(); ++i) {
@@ -315,7 +315,7 @@ TEST(BoxPairSearch, WorkIsBalanced) {
   BoxPairSearch search(comm(), SearchDecomposition::rcb, "balance");
   std::vector<BoxPair> pairs;
   for (int n = 0; n < 6; ++n) search.find_within(boxes, pairs);
-  EXPECT_LE(imbalance(comm(), static_cast<double>(search.work().total())), 1.15);
+  EXPECT_LE(imbalance(comm(), static_cast<double>(search.work().total())), 1.1);
   // Nothing has changed: what the last cuts left is not worth new ones.
   const std::int64_t cuts = search.cuts();
   for (int n = 0; n < 3; ++n) search.find_within(boxes, pairs);
