@@ -219,7 +219,8 @@ void BoxPairSearch::judge_balance() {
   if (all_work_ == 0) return;
   const double mean = static_cast<double>(all_work_) / comm_.size();
   const double beyond = static_cast<double>(greatest) / mean - 1;
-  if (fresh_ && cut_by_work_) left_ = left_ > 0 ? 0.5 * (left_ + beyond) : beyond;
+  // What cuts leave: falls at once, rises slowly, so that an unlucky one is not taken for the best there is.
+  if (fresh_ && cut_by_work_) left_ = left_ > 0 && beyond > left_ ? left_ + 0.25 * (beyond - left_) : beyond;
   fresh_ = false;
   lost_ += std::max(0.0, beyond - left_) * mean;
 }

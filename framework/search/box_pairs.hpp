@@ -95,7 +95,7 @@ class BoxPairSearch {
   std::int64_t items_ = 0;     // boxes received on all ranks, last search
   std::int64_t all_work_ = 0;  // on all ranks, last search
   double lost_ = 0;            // work waited for since the last cuts, beyond what they left
-  double left_ = 0;            // greatest over mean work, less one, that cuts leave: running average
+  double left_ = 0;            // greatest over mean work, less one, that cuts leave
   bool fresh_ = false;         // no search since the last cuts
   bool cut_by_work_ = false;   // the last cuts knew the work of the items
 };

@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 
 #include "../transfer/bench_clock.hpp"
@@ -15,6 +16,7 @@ namespace tenon::bench {
 namespace {
 
 struct Options {
+  std::vector<std::string> decompositions{"rcb", "slices", "owner_boxes"};
   std::int64_t items = 100'000;
   int stages = 120;
 };
@@ -58,7 +60,7 @@ void run(const Options& options) {
     fmt::print("{:12} {:>5} {:>9} {:>9} {:>6} {:>8} {:>8}\n", "", "search", "pairs", "boxes", "cuts", "max/mean", "ms");
   for (const auto decomposition :
        {SearchDecomposition::rcb, SearchDecomposition::slices, SearchDecomposition::owner_boxes})
-    crumple(decomposition, options);
+    if (std::ranges::count(options.decompositions, name_of(decomposition)) > 0) crumple(decomposition, options);
 }
 
 }  // namespace
@@ -66,6 +68,8 @@ void run(const Options& options) {
 void add_balance(CLI::App& app) {
   auto options = std::make_shared<Options>();
   CLI::App* const balance = app.add_subcommand("balance", "work of the search per rank while a can is crumpled");
+  balance->add_option("decomposition", options->decompositions, "which")
+      ->check(CLI::IsMember({"rcb", "slices", "owner_boxes"}));
   balance->add_option("--items", options->items, "faces, and as many nodes")->check(CLI::PositiveNumber);
   balance->add_option("--stages", options->stages)->check(CLI::Range(2, 100000));
   balance->callback([options] { run(*options); });

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Contact, timed part by part.
 //   contact_bench search [sheet|shuffled|random|graded|coarse ...] [--items N] [--repeats N]
-//   mpirun -n 16 --oversubscribe contact_bench balance [--items N] [--stages N]
+//   mpirun -n 16 --oversubscribe contact_bench balance [rcb|slices|owner_boxes ...] [--items N] [--stages N]
 #include <CLI/CLI.hpp>
 
 #include "balance_bench.hpp"
