@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <random>
 #include <set>
 #include <string>
@@ -128,6 +129,21 @@ TEST(BoxJoin, OneBuildAfterAnother) {
     EXPECT_EQ(sorted(found, false), brute_force(boxes, points, false));
     join.find_pairs(found);
     EXPECT_EQ(sorted(found, false), brute_force(boxes, points, false));
+  }
+}
+
+TEST(HilbertCurve, OrderIsThatOfItsCodes) {
+  for (const int count : {0, 1, 30, 5000}) {
+    std::vector<Box> boxes = scattered(count, 13, 0);
+    for (std::size_t i = 0; i < boxes.size(); i += 2) boxes[i].low = 1e-4 * boxes[i].low;  // crowded, ties
+    Box bounds;
+    for (const Box& box : boxes) bounds.add(box.low);
+    const HilbertCurve curve(bounds);
+    std::vector<LocalIndex> expected(boxes.size());
+    std::iota(expected.begin(), expected.end(), 0);
+    const auto code = [&](LocalIndex i) { return curve.code(boxes[static_cast<std::size_t>(i)].low); };
+    std::stable_sort(expected.begin(), expected.end(), [&](LocalIndex a, LocalIndex b) { return code(a) < code(b); });
+    EXPECT_EQ(curve.order(boxes.size(), [&](std::size_t i) { return boxes[i].low; }), expected);
   }
 }
 
