@@ -86,6 +86,10 @@ void Contact::gather(double time, double dt) {
   state_.resize(static_cast<std::size_t>(set_.nodes()));
   set_.from_home().forward<NodeState>(home_state_, state_);
   end_.resize(state_.size());
+  former_.resize(state_.size());
+  for (std::size_t n = 0; n < state_.size(); ++n) former_[n] = state_[n].former;
+  former_bodies_ = bodies_;
+  for (Body& body : former_bodies_) body.state.velocity = body.state.former_velocity;
   for (std::size_t n = 0; n < state_.size(); ++n) end_[n] = state_[n].place + dt * state_[n].velocity;
 }
 
@@ -105,13 +109,14 @@ void Contact::solve(double dt) {
 
 // Pairs that pressed before and no longer do give back what their impact took.
 void Contact::release() {
-  released_.assign(constraints_.size(), 0.0);
+  released_.assign(constraints_.size(), {});
   bool any = false;
   for (std::size_t k = 0; k < constraints_.size(); ++k) {
     const Constraint& q = constraints_[k];
     const PairMemory& memory = set_.pairs()[static_cast<std::size_t>(q.pair)].memory;
     if (!(memory.energy > 0) || dot(q.impulse, q.normal) > 0) continue;
-    released_[k] = memory.energy;
+    released_[k] = {memory.energy,
+                    dot(relative_velocity(q, former_, former_bodies_, q.former_surface_velocity), q.normal)};
     any = true;
   }
   if (comm_.any(any)) enforcement_.release(constraints_, state_, bodies_, released_);
@@ -120,11 +125,8 @@ void Contact::release() {
 // The work of each pair by the velocities before the kick and after contact, which is what the parties book for their
 // nodes: what is not friction is stored, as long as it can be, or lost.
 void Contact::book(double dt) {
-  std::vector<Vec3> former(state_.size());
-  for (std::size_t n = 0; n < state_.size(); ++n) former[n] = state_[n].former;
-  std::vector<Body> bodies_before = bodies_, bodies_after = bodies_;
+  std::vector<Body> bodies_after = bodies_;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    bodies_before[b].state.velocity = bodies_[b].state.former_velocity;
     for (std::size_t c = 0; c < 3; ++c)
       bodies_after[b].state.velocity[c] += bodies_[b].state.inverse_mass[c] * bodies_[b].impulse.linear[c];
   }
@@ -136,14 +138,14 @@ void Contact::book(double dt) {
     const Constraint& q = constraints_[k];
     WorkingPair& pair = set_.pairs()[static_cast<std::size_t>(q.pair)];
     PairMemory& memory = pair.memory;
-    const Vec3 before = relative_velocity(q, former, bodies_before, q.former_surface_velocity);
+    const Vec3 before = relative_velocity(q, former_, former_bodies_, q.former_surface_velocity);
     const Vec3 after = relative_velocity(q, enforcement_.velocities(), bodies_after, q.surface_velocity);
     const Vec3 mean = 0.5 * (before + after);
     const double pressed = dot(q.impulse, q.normal);
     const Vec3 across = q.impulse - pressed * q.normal;
     const double normal_work = pressed * dot(q.normal, mean), friction = -dot(across, mean);
     const double stored = memory.energy;
-    const bool is_released = released_[k] > 0;
+    const bool is_released = released_[k].energy > 0;
     memory.energy = is_released ? 0.0 : std::max(0.0, stored - normal_work);
     memory.force = is_released ? Vec3{} : (1 / dt) * q.impulse;
     const Vec3 way = memory.slip + dt * after;

@@ -140,14 +140,16 @@ class Contact final : public Interaction {
 
   // Of a step.
   std::vector<contact::NodeState> home_state_, state_;
-  std::vector<Vec3> end_;                 // predicted places, m
+  std::vector<Vec3> end_;     // predicted places, m
+  std::vector<Vec3> former_;  // velocities of before the kick, m/s
+  std::vector<contact::Body> former_bodies_;
   std::vector<contact::Body> bodies_;     // of the parties, then free rigid surfaces
   std::vector<std::int32_t> first_body_;  // of each party; then of the rigid surfaces
   std::vector<Constraint> constraints_;
   std::vector<std::int32_t> constraint_of_pair_;
-  std::vector<double> released_;  // J, per constraint
-  std::vector<Vec3> slid_;        // m, in this step, per constraint
-  std::vector<double> heat_;      // J, likewise
+  std::vector<contact::Enforcement::Release> released_;
+  std::vector<Vec3> slid_;    // m, in this step, per constraint
+  std::vector<double> heat_;  // J, likewise
   std::vector<contact::Touch> touches_;
   std::vector<std::array<GlobalId, 4>> touch_nodes_;
   std::vector<GlobalId> touch_ids_;

@@ -96,8 +96,9 @@ void Contact::touch_rigid(std::size_t q, double time, double dt) {
   const auto n = static_cast<std::size_t>(pair.node[0]);
   const MovingSurface& surface = rigid_[static_cast<std::size_t>(pair.key.ids[1])];
   RigidTouch touch;
-  if (surface.touch(state_[n].place, end_[n], surface.velocity(time, dt), dt, pair.clearance, pair.margin, touch)) {
+  if (surface.touch(state_[n].place, end_[n], surface.velocity(time, dt), dt, pair.clearance, pair.margin, touch))
     add_constraint(q, nullptr, nullptr, &touch, dt);
+  if (constraint_of_pair_[q] >= 0) {
     Constraint& constraint = constraints_.back();
     constraint.body = first_body_[parties_.size() + static_cast<std::size_t>(pair.key.ids[1])];
     if (constraint.body < 0) constraint.surface_velocity = surface.velocity(time, dt);

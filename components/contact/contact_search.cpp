@@ -55,6 +55,7 @@ void Contact::renew(double time, double dt) {
   set_.build(
       search_, extra, [this](PairRecord& pair) { return admit(pair); }, restored_);
   restored_.clear();
+  for (const double energy : set_.lost()) dissipated_.add(energy);
   limit_clearances();
   watch_nodes();
 }

@@ -159,8 +159,8 @@ double Enforcement::weight(const NodeState& node, std::span<const Body> bodies) 
 }
 
 void Enforcement::precondition(std::span<Constraint> constraints, std::span<const NodeState> nodes,
-                               std::span<const Body> bodies, std::span<const double> chosen) {
-  const auto counts = [&](std::size_t q) { return chosen.empty() || chosen[q] > 0; };
+                               std::span<const Body> bodies, std::span<const Release> chosen) {
+  const auto counts = [&](std::size_t q) { return chosen.empty() || chosen[q].energy > 0; };
   crowd_.assign(nodes.size(), 0.0);
   for (std::size_t n = 0; n < nodes.size(); ++n)
     for (std::int32_t k = first_[n]; k < first_[n + 1]; ++k) {
@@ -308,20 +308,22 @@ Enforcement::Report Enforcement::solve(std::span<Constraint> constraints, std::s
   return report;
 }
 
+// p (u- + u + k p)/2 = E with u by the impulses so far: p = (sqrt(s^2 + 8 k E) - s)/(2 k), s = u- + u.
 void Enforcement::release(std::span<Constraint> constraints, std::span<const NodeState> nodes,
-                          std::vector<Body>& bodies, std::span<const double> energy) {
-  precondition(constraints, nodes, bodies, energy);
+                          std::vector<Body>& bodies, std::span<const Release> releases) {
+  precondition(constraints, nodes, bodies, releases);
   for (std::size_t q = 0; q < constraints.size(); ++q) {
     Constraint& constraint = constraints[q];
-    if (!(energy[q] > 0) || constraint.inverse == 0) continue;
+    const Release& release = releases[q];
+    if (!(release.energy > 0) || constraint.inverse == 0) continue;
     Vec3 u = relative_velocity(constraint, velocity_, bodies, constraint.surface_velocity);
     if (constraint.body >= 0) {
       const Body& body = bodies[static_cast<std::size_t>(constraint.body)];
       u = u - by_component(body.state.inverse_mass, body.impulse.linear);
     }
-    const double apart = dot(u, constraint.normal);
-    const double wanted = std::sqrt(apart * apart + 2 * energy[q] / constraint.inverse);
-    constraint.impulse = constraint.impulse + (constraint.inverse * (wanted - apart)) * constraint.normal;
+    const double s = release.former + dot(u, constraint.normal);
+    const double p = 0.5 * constraint.inverse * (std::sqrt(s * s + 8 * release.energy / constraint.inverse) - s);
+    constraint.impulse = constraint.impulse + p * constraint.normal;
   }
   move(constraints, nodes, bodies, [](const Constraint& q) { return q.impulse; });
 }

@@ -76,10 +76,15 @@ class Enforcement {
   };
   /// Collective. Fills impulses (which may start from a guess); velocities() are then those after them.
   Report solve(std::span<Constraint> constraints, std::span<const NodeState> nodes, std::vector<Body>& bodies);
-  /// Collective. Adds impulses to the chosen constraints that give each the energy (J) that it has stored, or less
-  /// where they share nodes. `energy` is zero for those that are not released.
+  /// What is to be given back to a constraint that lets go.
+  struct Release {
+    double energy = 0;  ///< J; 0: none
+    double former = 0;  ///< m/s, relative velocity along the normal before the kick
+  };
+  /// Collective. Adds impulses p to the chosen constraints whose work, p (u- + u+)/2 with the velocity u- of before the
+  /// kick, is the energy that each has stored; less where they share nodes.
   void release(std::span<Constraint> constraints, std::span<const NodeState> nodes, std::vector<Body>& bodies,
-               std::span<const double> energy);
+               std::span<const Release> releases);
 
   /// Local. visit(constraint, slot) for the constraints of a node that this rank sums for, ascending.
   template <typename Visit>
@@ -97,7 +102,7 @@ class Enforcement {
  private:
   void connect(std::span<const Constraint> constraints);
   void precondition(std::span<Constraint> constraints, std::span<const NodeState> nodes, std::span<const Body> bodies,
-                    std::span<const double> chosen);
+                    std::span<const Release> chosen);
   template <typename Impulse>
   void move(std::span<const Constraint> constraints, std::span<const NodeState> nodes, std::vector<Body>& bodies,
             Impulse impulse);

@@ -94,7 +94,7 @@ void WorkingSet::remember(std::span<const std::pair<PairKey, PairMemory>> restor
   const ExchangePlan plan = ExchangePlan::to_ranks(comm_, to, "contact memory");
   std::vector<KeyedMemory> arrived(static_cast<std::size_t>(plan.received()));
   plan.forward<KeyedMemory>(send, arrived);
-  memories_.clear();
+  memories_.clear(), lost_.clear();
   for (const KeyedMemory& memory : arrived) memories_.emplace_back(memory.key, memory.memory);
   memories_.insert(memories_.end(), restored.begin(), restored.end());
   std::ranges::sort(memories_, {}, &std::pair<PairKey, PairMemory>::first);
@@ -107,11 +107,19 @@ void WorkingSet::gather_records(const CandidateSearch& search, const PairFilter&
   std::ranges::sort(records_, {}, &PairRecord::key);
   std::size_t kept = 0;
   auto memory = memories_.begin();
+  const auto pass = [&](const PairKey& key) {  // memories before it that no pair takes over
+    for (; memory != memories_.end() && memory->first < key; ++memory) lost_.push_back(memory->second.energy);
+  };
   for (PairRecord& record : records_) {
-    while (memory != memories_.end() && memory->first < record.key) ++memory;
-    if (memory != memories_.end() && memory->first == record.key) record.memory = memory->second;
-    if (filter(record)) records_[kept++] = record;
+    pass(record.key);
+    const bool remembers = memory != memories_.end() && memory->first == record.key;
+    if (remembers) record.memory = memory++->second;
+    if (filter(record))
+      records_[kept++] = record;
+    else if (remembers)
+      lost_.push_back(record.memory.energy);
   }
+  for (; memory != memories_.end(); ++memory) lost_.push_back(memory->second.energy);
   records_.resize(kept);
 }
 

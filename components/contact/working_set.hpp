@@ -95,6 +95,8 @@ class WorkingSet {
   const ExchangePlan& halo() const { return halo_; }
   /// Whether any rank has a pair.
   bool any() const { return any_; }
+  /// J: of pairs that were remembered and are no more, on this rank, since the last `build`.
+  std::span<const double> lost() const { return lost_; }
   /// Counted work of enforcement per node of the set, for the next partition.
   std::vector<float>& work() { return work_; }
   std::int64_t memory() const;
@@ -116,6 +118,7 @@ class WorkingSet {
   bool any_ = false;
   std::vector<PairRecord> records_;                       // at the homes of first nodes, ascending by key
   std::vector<std::pair<PairKey, PairMemory>> memories_;  // of the pairs before, likewise
+  std::vector<double> lost_;
   std::vector<LocalIndex> busy_;
   std::vector<LocalIndex> busy_slot_;    // of all home nodes: place in busy_, or no_index
   std::vector<std::int32_t> home_part_;  // of home nodes
