@@ -91,13 +91,16 @@ class Contact final : public Interaction {
   // A step.
   void gather(double time, double dt);
   void find_constraints(double time, double dt);
+  bool find_more(double time, double dt);
+  bool is_moved(std::size_t begin, std::size_t end) const;
+  void touch_pairs(double time, double dt);
   void touch_faces(std::size_t begin, std::size_t end, double dt);
   void touch_edges(std::size_t pair, double dt);
   void touch_rigid(std::size_t pair, double time, double dt);
   void add_constraint(std::size_t pair, const contact::Touch* touch, const contact::EdgeTouch* edges,
                       const contact::RigidTouch* rigid, double dt);
   void hand_over(std::size_t begin, std::size_t end, std::size_t first_constraint);
-  void solve(double dt);
+  void solve(double time, double dt);
   void release();
   void book(double dt);
   void send_back();
@@ -154,6 +157,8 @@ class Contact final : public Interaction {
   std::vector<std::array<GlobalId, 4>> touch_nodes_;
   std::vector<GlobalId> touch_ids_;
   std::vector<std::size_t> touch_pairs_;
+  std::vector<char> moved_;  // nodes of the set, by contact
+  bool again_ = false;       // ways are looked at once more
   bool any_constraint_ = false, fields_filled_ = false;
   std::vector<Vec3> home_impulse_;
   std::vector<NodeResult> results_, home_results_;

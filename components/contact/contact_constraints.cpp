@@ -17,6 +17,8 @@ namespace {
 constexpr double removal_rate = 0.1;
 // Of what friction failed to hold: likewise.
 constexpr double return_rate = 0.1;
+// Of the distance of interest: what is less is left to the next step when a stopped node is looked at again.
+constexpr double negligible = 1e-3;
 
 Vec3 tangential(const Vec3& a, const Vec3& normal) {
   return a - dot(a, normal) * normal;
@@ -27,13 +29,43 @@ Vec3 tangential(const Vec3& a, const Vec3& normal) {
 void Contact::find_constraints(double time, double dt) {
   const ScopedTimer timer(*phases_.touch);
   constraints_.clear();
-  std::vector<WorkingPair>& pairs = set_.pairs();
-  constraint_of_pair_.assign(pairs.size(), -1);
+  constraint_of_pair_.assign(set_.pairs().size(), -1);
+  again_ = false;
+  touch_pairs(time, dt);
+}
+
+// A node that is stopped at one face may slide into another, which the way that it would have gone missed: ways are
+// looked at again with the velocities that contact has found. Whether any constraint is new on this rank.
+bool Contact::find_more(double time, double dt) {
+  const ScopedTimer timer(*phases_.touch);
+  const std::size_t before = constraints_.size();
+  moved_.resize(state_.size());
+  for (std::size_t n = 0; n < state_.size(); ++n) {
+    const Vec3& v = enforcement_.velocities()[n];
+    moved_[n] = v != state_[n].velocity ? 1 : 0;
+    end_[n] = state_[n].place + dt * v;
+  }
+  again_ = true;
+  touch_pairs(time, dt);
+  return constraints_.size() > before;
+}
+
+bool Contact::is_moved(std::size_t begin, std::size_t end) const {
+  for (std::size_t q = begin; q < end; ++q)
+    for (std::int32_t k = 0; k < set_.pairs()[q].nodes; ++k)
+      if (moved_[static_cast<std::size_t>(set_.pairs()[q].node[static_cast<std::size_t>(k)])] != 0) return true;
+  return false;
+}
+
+void Contact::touch_pairs(double time, double dt) {
+  const std::vector<WorkingPair>& pairs = set_.pairs();
   for (std::size_t begin = 0, end = 0; begin < pairs.size(); begin = end) {
     end = begin + 1;
     if (pairs[begin].key.kind == 0) {
       while (end < pairs.size() && pairs[end].key.kind == 0 && pairs[end].key.ids[0] == pairs[begin].key.ids[0]) ++end;
-      touch_faces(begin, end, dt);
+      if (!again_ || is_moved(begin, end)) touch_faces(begin, end, dt);
+    } else if (again_ && (constraint_of_pair_[begin] >= 0 || !is_moved(begin, end))) {
+      continue;
     } else if (pairs[begin].key.kind == 1) {
       touch_rigid(begin, time, dt);
     } else {
@@ -70,7 +102,8 @@ void Contact::touch_faces(std::size_t begin, std::size_t end, double dt) {
     const int count = choose_touches(touches_, touch_nodes_, touch_ids_, chosen);
     for (int k = 0; k < count; ++k) {
       const Choice& choice = chosen[static_cast<std::size_t>(k)];
-      add_constraint(touch_pairs_[static_cast<std::size_t>(choice.candidate)], &choice.touch, nullptr, nullptr, dt);
+      const std::size_t q = touch_pairs_[static_cast<std::size_t>(choice.candidate)];
+      if (constraint_of_pair_[q] < 0) add_constraint(q, &choice.touch, nullptr, nullptr, dt);
     }
   }
   hand_over(begin, end, first_constraint);
@@ -112,7 +145,7 @@ void Contact::add_constraint(std::size_t q, const Touch* face, const EdgeTouch* 
   const WorkingPair& pair = set_.pairs()[q];
   const double gap = face ? face->gap : edges ? edges->gap : rigid->gap;
   const double end_gap = face ? face->end_gap : edges ? edges->end_gap : rigid->end_gap;
-  if (end_gap > 0 && pair.memory.empty()) return;  // near, no more
+  if (again_ ? end_gap > -negligible * pair.margin : end_gap > 0 && pair.memory.empty()) return;  // near, no more
   Constraint c;
   c.pair = static_cast<std::int32_t>(q), c.nodes = pair.nodes, c.node = pair.node;
   c.gap = gap;
@@ -142,6 +175,7 @@ void Contact::add_constraint(std::size_t q, const Touch* face, const EdgeTouch* 
 // A node that slides from face to face takes along what its pair remembers; what no pair takes over is lost. Then the
 // impulse of the step before is the first guess.
 void Contact::hand_over(std::size_t begin, std::size_t end, std::size_t first_constraint) {
+  if (again_) return;
   std::vector<WorkingPair>& pairs = set_.pairs();
   for (std::size_t q = begin; q < end; ++q) {
     PairMemory& memory = pairs[q].memory;
