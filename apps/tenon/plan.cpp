@@ -52,6 +52,9 @@ void print_skips(Simulation& simulation) {
       log.print("  transfer {} in all but the steps of the slower component", coupling->name());
   for (const auto& component : simulation.components())
     for (const SkipCount& skip : component->skips()) log.print("  {}: {}", component->name(), skip.what);
+  if (simulation.interactions().empty()) log.line("  all contact searches and impulses: no contact");
+  for (const auto& interaction : simulation.interactions())
+    for (const SkipCount& skip : interaction->skips()) log.print("  {}: {}", interaction->name(), skip.what);
 }
 
 /// Seconds per step of the leader, from a few real steps.
@@ -76,6 +79,11 @@ void plan_scene(const Communicator& comm, const RunArguments& arguments) {
   simulation.initialize();
   print_warnings(log, built);
   for (const auto& component : simulation.components()) print_component(simulation, *component);
+  for (const auto& interaction : simulation.interactions()) {
+    log.print("\n{}", interaction->name());
+    for (const std::string& line : interaction->report()) log.print("  {}", line);
+    log.print("  state {:.1f} MiB in all", megabytes(comm.sum(interaction->memory())));
+  }
   std::int64_t maps = 0;
   for (const auto& coupling : simulation.couplings()) {
     log.print("\ntransfer {}", coupling->name());
