@@ -23,11 +23,12 @@ void Contact::act(double time, double dt) {
     find_constraints(time, dt);
     any_constraint_ = comm_.any(!constraints_.empty());
     if (any_constraint_) {
-      solve(time, dt);
-      book(dt);
+      const double kick = parties_.front()->contact_kick();
+      solve(time, dt, kick);
+      book(dt, kick);
       send_back();
     }
-    if (any_constraint_ || fields_filled_) fill_fields(dt);
+    if (any_constraint_ || fields_filled_) fill_fields(parties_.front()->contact_kick());
   } else {
     any_constraint_ = false;
     if (fields_filled_) clear_fields();
@@ -93,12 +94,28 @@ void Contact::gather(double time, double dt) {
   for (std::size_t n = 0; n < state_.size(); ++n) end_[n] = state_[n].place + dt * state_[n].velocity;
 }
 
-void Contact::solve(double time, double dt) {
+// How fast an overlap may go: as far as what the pair has stored pays for it, for that is what it took to get in; and a
+// ten-thousandth of a face per step, which is not felt, where it came by a change of faces.
+double Contact::removal_speed(const Constraint& q, double dt) const {
+  const WorkingPair& pair = set_.pairs()[static_cast<std::size_t>(q.pair)];
+  constexpr double slow = 1e-3;  // of the distance of interest, a tenth of a face
+  double lightest = 0;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(q.nodes); ++k)
+    if (q.c[k] > 0) {
+      const std::array<double, 6>& w = state_[static_cast<std::size_t>(q.node[k])].mobility.w;
+      lightest = std::max({lightest, w[0], w[1], w[2]});
+    }
+  return std::max(slow * pair.margin / dt, std::sqrt(2 * pair.memory.energy * lightest));
+}
+
+void Contact::solve(double time, double dt, double kick) {
   for (Constraint& q : constraints_) {
     const PairMemory& memory = set_.pairs()[static_cast<std::size_t>(q.pair)].memory;
     const double along = std::max(0.0, dot(memory.force, q.normal));
-    q.impulse = (dt * along) * q.normal;
-    if (q.static_coefficient > 0) q.impulse = q.impulse + dt * (memory.force - dot(memory.force, q.normal) * q.normal);
+    q.impulse = (kick * along) * q.normal;
+    if (q.gap < 0) q.target = std::min(q.target, removal_speed(q, dt));
+    if (q.static_coefficient > 0)
+      q.impulse = q.impulse + kick * (memory.force - dot(memory.force, q.normal) * q.normal);
   }
   constexpr int greatest_looks = 3;
   for (int look = 1; look <= greatest_looks; ++look) {
@@ -131,7 +148,7 @@ void Contact::release() {
 
 // The work of each pair by the velocities before the kick and after contact, which is what the parties book for their
 // nodes: what is not friction is stored, as long as it can be, or lost.
-void Contact::book(double dt) {
+void Contact::book(double dt, double kick) {
   std::vector<Body> bodies_after = bodies_;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     for (std::size_t c = 0; c < 3; ++c)
@@ -154,7 +171,7 @@ void Contact::book(double dt) {
     const double stored = memory.energy;
     const bool is_released = released_[k].energy > 0;
     memory.energy = is_released ? 0.0 : std::max(0.0, stored - normal_work);
-    memory.force = is_released ? Vec3{} : (1 / dt) * q.impulse;
+    memory.force = is_released ? Vec3{} : (1 / kick) * q.impulse;
     const Vec3 way = memory.slip + dt * after;
     memory.slip = q.sticks && pressed > 0 ? way - dot(way, q.normal) * q.normal : Vec3{};
     slid_[k] = pressed > 0 ? dt * (after - dot(after, q.normal) * q.normal) : Vec3{};
@@ -170,7 +187,7 @@ void Contact::book(double dt) {
       if (total.first != low || total.second != high) continue;
       const double sign = pair.first_surface == low ? 1 : -1;
       for (std::size_t c = 0; c < 3; ++c) {
-        total.force[c].add(sign * q.impulse[c] / dt);
+        total.force[c].add(sign * q.impulse[c] / kick);
         total.impulse[c].add(sign * q.impulse[c]);
       }
       total.friction_work.add(friction);

@@ -100,11 +100,12 @@ class Contact final : public Interaction {
   void add_constraint(std::size_t pair, const contact::Touch* touch, const contact::EdgeTouch* edges,
                       const contact::RigidTouch* rigid, double dt);
   void hand_over(std::size_t begin, std::size_t end, std::size_t first_constraint);
-  void solve(double time, double dt);
+  void solve(double time, double dt, double kick);
+  double removal_speed(const Constraint& constraint, double dt) const;
   void release();
-  void book(double dt);
+  void book(double dt, double kick);
   void send_back();
-  void fill_fields(double dt);
+  void fill_fields(double kick);
   void clear_fields();
   void move_rigid(double time, double dt);
   std::int32_t party_bodies() const;
@@ -112,7 +113,7 @@ class Contact final : public Interaction {
     Vec3 force{}, slip{};
     double gap = 0, status = 0, pressure = 0, heat = 0;
   };
-  NodeResult result_of(std::size_t node, double dt) const;
+  NodeResult result_of(std::size_t node, double kick) const;
 
   Communicator comm_;
   std::vector<Component*> components_;

@@ -24,13 +24,13 @@ ExactSum negative(const ExactSum& sum) {
 }  // namespace
 
 /// Of a node of the set, in the order of its constraints.
-Contact::NodeResult Contact::result_of(std::size_t node, double dt) const {
+Contact::NodeResult Contact::result_of(std::size_t node, double kick) const {
   NodeResult result;
   bool any = false;
   double pressing = 0;
   enforcement_.for_constraints_of(node, [&](std::size_t k, std::size_t slot) {
     const Constraint& q = constraints_[k];
-    const Vec3 force = (1 / dt) * share(q, slot, q.impulse);
+    const Vec3 force = (1 / kick) * share(q, slot, q.impulse);
     const double pressed = dot(q.impulse, q.normal);
     result.force = result.force + force;
     pressing += std::abs(dot(force, q.normal));
@@ -46,12 +46,12 @@ Contact::NodeResult Contact::result_of(std::size_t node, double dt) const {
   return result;
 }
 
-void Contact::fill_fields(double dt) {
+void Contact::fill_fields(double kick) {
   clear_fields();
   if (!any_constraint_) return;
   results_.assign(state_.size(), NodeResult{});
   for (std::size_t n = 0; n < state_.size(); ++n)
-    if (set_.sums(static_cast<LocalIndex>(n))) results_[n] = result_of(n, dt);
+    if (set_.sums(static_cast<LocalIndex>(n))) results_[n] = result_of(n, kick);
   home_results_.assign(set_.busy().size(), NodeResult{});
   set_.results().reverse<NodeResult>(results_, home_results_);
   for (std::size_t b = 0; b < home_results_.size(); ++b) {

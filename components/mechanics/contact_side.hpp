@@ -37,6 +37,7 @@ class ContactSide final : public ContactParty {
   void watch(std::span<const LocalIndex> nodes) override;
   std::span<const Vec3> contact_positions() const override { return parts_.nodes.position(); }
   std::span<const Vec3> contact_velocities() const override { return parts_.nodes.velocity(); }
+  double contact_kick() const override { return kick_; }
   std::span<const Vec3> former_velocities() const override { return former_; }
   void mobilities(std::span<const LocalIndex> nodes, std::span<Mobility> mobility) const override;
   std::vector<ContactRigidBody> contact_rigid_bodies() const override { return parts_.rigid.contact_bodies(); }

@@ -91,6 +91,8 @@ class ContactParty {
   /// kick, m/s.
   virtual std::span<const Vec3> contact_positions() const = 0;
   virtual std::span<const Vec3> contact_velocities() const = 0;
+  /// Length of the present kick, s: force times it is impulse.
+  virtual double contact_kick() const = 0;
   /// Of the watched nodes, in their order: velocities before the kick, m/s.
   virtual std::span<const Vec3> former_velocities() const = 0;
   /// Of owned nodes, between the halves.

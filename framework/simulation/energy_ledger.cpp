@@ -11,10 +11,10 @@ EnergyLedger::EnergyLedger(const Communicator& comm, const std::vector<Component
     : comm_(comm) {
   for (Component* component : components)
     accounts_.push_back(
-        {component->name(), [component](std::vector<EnergyTerm>& terms) { component->energies(terms); }});
+        {component->name(), [component](std::vector<EnergyTerm>& terms) { component->energies(terms); }, false});
   for (Interaction* interaction : interactions)
     accounts_.push_back(
-        {interaction->name(), [interaction](std::vector<EnergyTerm>& terms) { interaction->energies(terms); }});
+        {interaction->name(), [interaction](std::vector<EnergyTerm>& terms) { interaction->energies(terms); }, true});
 }
 
 std::vector<LedgerRow> EnergyLedger::reduce() {
@@ -49,6 +49,7 @@ void EnergyLedger::start() {
 
 LedgerSnapshot EnergyLedger::take() {
   LedgerSnapshot snapshot{reduce(), {}, 0};
+  double greatest = 0;
   for (Account& account : accounts_) {
     double residual = -account.initial, size = std::abs(account.initial);
     for (const LedgerRow& row : snapshot.rows) {
@@ -56,7 +57,8 @@ LedgerSnapshot EnergyLedger::take() {
       residual += row.role == EnergyTerm::Role::stored ? row.value : -row.value;
       size += std::abs(row.value);
     }
-    account.scale = std::max(account.scale, size);
+    account.scale = std::max({account.scale, size, account.between ? greatest : 0.0});
+    greatest = std::max(greatest, account.scale);
     snapshot.residual.push_back(residual);
     if (account.scale > 0) snapshot.error = std::max(snapshot.error, std::abs(residual) / account.scale);
   }

@@ -28,7 +28,7 @@ struct LedgerSnapshot {
 };
 
 /// Sums the rows of all components with one exact reduction. The scale of a component is the greatest sum of |rows| so
-/// far.
+/// far; of an interaction that of the greatest component.
 class EnergyLedger {
  public:
   EnergyLedger(const Communicator& comm, const std::vector<Component*>& components,
@@ -50,6 +50,7 @@ class EnergyLedger {
   struct Account {
     std::string name;
     std::function<void(std::vector<EnergyTerm>&)> energies;
+    bool between = false;  ///< an interaction: what it passes on is measured by what its parties have
     double initial = 0, scale = 0;
   };
   std::vector<LedgerRow> reduce();
