@@ -175,7 +175,7 @@ void Contact::book(double dt, double kick) {
     const Vec3 way = memory.slip + dt * after;
     memory.slip = q.sticks && pressed > 0 ? way - dot(way, q.normal) * q.normal : Vec3{};
     slid_[k] = pressed > 0 ? dt * (after - dot(after, q.normal) * q.normal) : Vec3{};
-    heat_[k] = std::max(0.0, friction);
+    heat_[k] = friction;
     if (!pair.primary) continue;
     dissipated_.add(-normal_work - (memory.energy - stored));
     friction_.add(friction);

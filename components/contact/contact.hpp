@@ -113,6 +113,7 @@ class Contact final : public Interaction {
     Vec3 force{}, slip{};
     double gap = 0, status = 0, pressure = 0, heat = 0;
   };
+  double first_share(const contact::WorkingPair& pair) const;
   NodeResult result_of(std::size_t node, double kick) const;
 
   Communicator comm_;

@@ -23,6 +23,14 @@ ExactSum negative(const ExactSum& sum) {
 
 }  // namespace
 
+/// Share of the heat of friction that goes to the first side: by the effusivities, half where they are not known.
+double Contact::first_share(const WorkingPair& pair) const {
+  const auto blocks = static_cast<std::int32_t>(surfaces_.names().size());
+  if (pair.second_surface >= blocks) return 0.5;
+  const double a = surfaces_.effusivity(pair.first_surface), b = surfaces_.effusivity(pair.second_surface);
+  return a > 0 && b > 0 ? a / (a + b) : 0.5;
+}
+
 /// Of a node of the set, in the order of its constraints.
 Contact::NodeResult Contact::result_of(std::size_t node, double kick) const {
   NodeResult result;
@@ -40,7 +48,8 @@ Contact::NodeResult Contact::result_of(std::size_t node, double kick) const {
     result.status = std::max(result.status, pressed > 0 ? (slips ? slipping : sticking) : near);
     const double coefficient = std::abs(q.c[slot]);
     result.slip = result.slip + (q.c[slot] > 0 ? coefficient : -coefficient) * slid_[k];
-    result.heat += 0.5 * coefficient * heat_[k];  // half to each side
+    const double first = first_share(set_.pairs()[static_cast<std::size_t>(q.pair)]);
+    result.heat += (q.c[slot] > 0 ? first : 1 - first) * coefficient * heat_[k];
   });
   result.pressure = pressing;
   return result;

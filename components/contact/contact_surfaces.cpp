@@ -69,6 +69,9 @@ void ContactSurfaces::name_surfaces(const std::vector<std::string>& party_names)
   std::multiset<std::string> all;
   for (ContactParty* party : parties_)
     for (const std::string& name : party->surface_names()) all.insert(name);
+  for (const ContactParty* party : parties_)
+    for (std::size_t s = 0; s < party->surface_names().size(); ++s)
+      effusivities_.push_back(party->effusivity(static_cast<std::int32_t>(s)));
   for (std::size_t p = 0; p < parties_.size(); ++p)
     for (const std::string& name : parties_[p]->surface_names())
       names_.push_back(all.count(name) > 1 ? party_names[p] + "." + name : name);

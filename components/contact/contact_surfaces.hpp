@@ -71,6 +71,7 @@ class ContactSurfaces {
   const std::vector<SurfaceNode>& nodes() const { return nodes_; }  ///< ascending by id
   const std::vector<SurfaceFace>& faces() const { return faces_; }  ///< ascending by id
   const std::vector<SurfaceEdge>& edges() const { return edges_; }  ///< ascending by ids of their ends
+  double effusivity(std::int32_t surface) const { return effusivities_[static_cast<std::size_t>(surface)]; }
   /// Of all parties: "plate"; "car.plate" where several parties have a block of that name.
   const std::vector<std::string>& names() const { return names_; }
 
@@ -121,6 +122,7 @@ class ContactSurfaces {
   std::vector<std::int32_t> surface_offsets_;
   std::vector<std::int64_t> versions_;
   std::vector<std::string> names_;
+  std::vector<double> effusivities_;
   std::vector<SurfaceNode> nodes_;
   std::vector<SurfaceFace> faces_;
   std::vector<SurfaceEdge> edges_;

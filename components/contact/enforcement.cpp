@@ -9,7 +9,7 @@ namespace tenon::contact {
 namespace {
 
 constexpr int least_iterations = 4, check_interval = 4, greatest_iterations = 120;
-// Of the greatest violation at the start: what is left is a ten-thousandth of the motion of one step.
+// Of the greatest impulse: what is left is a ten-thousandth of what contact does in the step.
 constexpr double tolerance = 1e-4;
 
 Vec3 times(const std::array<double, 9>& m, const Vec3& a) {
@@ -247,9 +247,8 @@ void Enforcement::move(std::span<const Constraint> constraints, std::span<const 
   set_.halo().forward<Vec3>(velocity_, velocity_);
 }
 
-/// One step of the iteration; the greatest change, m/s.
-double Enforcement::iterate(std::span<Constraint> constraints, std::span<const Body> bodies, double beta) {
-  double change = 0;
+Enforcement::Change Enforcement::iterate(std::span<Constraint> constraints, std::span<const Body> bodies, double beta) {
+  Change found;
   for (Constraint& q : constraints) {
     if (q.inverse == 0) continue;
     Vec3 plain{};
@@ -274,10 +273,11 @@ double Enforcement::iterate(std::span<Constraint> constraints, std::span<const B
     }
     const Vec3 before = q.impulse;
     q.impulse = project(q, q.extrapolated - q.inverse * residual, q.sticks);
-    change = std::max(change, norm(q.impulse - q.extrapolated) / q.inverse);
+    found.change = std::max(found.change, norm(q.impulse - q.extrapolated) / q.inverse);
+    found.size = std::max(found.size, norm(q.impulse) / q.inverse);
     q.extrapolated = q.impulse + beta * (q.impulse - before);
   }
-  return change;
+  return found;
 }
 
 Enforcement::Report Enforcement::solve(std::span<Constraint> constraints, std::span<const NodeState> nodes,
@@ -288,16 +288,15 @@ Enforcement::Report Enforcement::solve(std::span<Constraint> constraints, std::s
   precondition(constraints, nodes, bodies, {});
   for (Constraint& q : constraints) q.extrapolated = q.impulse;
   Report report;
-  double first = 0, t = 1;
+  double t = 1;
   for (int iteration = 1; iteration <= greatest_iterations; ++iteration) {
     move(constraints, nodes, bodies, [](const Constraint& q) { return q.extrapolated; });
     const double next = 0.5 * (1 + std::sqrt(1 + 4 * t * t));
-    const double change = iterate(constraints, bodies, (t - 1) / next);
+    const Change found = iterate(constraints, bodies, (t - 1) / next);
     t = next;
     report.iterations = iteration;
-    first = std::max(first, change);
     if (iteration < least_iterations || iteration % check_interval != 0) continue;
-    std::array<double, 2> greatest{change, first};
+    std::array<double, 2> greatest{found.change, found.size};
     comm_.max(std::span<double>(greatest));
     report.residual = greatest[0];
     if (greatest[0] <= tolerance * greatest[1]) break;

@@ -106,7 +106,11 @@ class Enforcement {
   template <typename Impulse>
   void move(std::span<const Constraint> constraints, std::span<const NodeState> nodes, std::vector<Body>& bodies,
             Impulse impulse);
-  double iterate(std::span<Constraint> constraints, std::span<const Body> bodies, double beta);
+  /// Of one step of the iteration: the greatest change of an impulse, and the greatest impulse, as velocities, m/s.
+  struct Change {
+    double change = 0, size = 0;
+  };
+  Change iterate(std::span<Constraint> constraints, std::span<const Body> bodies, double beta);
   double weight(const NodeState& node, std::span<const Body> bodies) const;
 
   Communicator comm_;

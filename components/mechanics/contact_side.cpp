@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <limits>
 
 namespace tenon {
@@ -31,6 +32,14 @@ std::vector<std::string> ContactSide::surface_names() const {
   std::vector<std::string> names;
   for (const ElementBlock& block : parts_.mesh.blocks) names.push_back(block.name);
   return names;
+}
+
+double ContactSide::effusivity(std::int32_t surface) const {
+  const std::string& block = parts_.mesh.blocks[static_cast<std::size_t>(surface)].name;
+  const auto found = std::ranges::find(parts_.options.blocks, block, &MechanicsOptions::Block::name);
+  if (found == parts_.options.blocks.end() || !found->material.thermal) return 0;
+  const ThermalProperties& thermal = *found->material.thermal;
+  return std::sqrt(thermal.conductivity * found->material.density * thermal.specific_heat);
 }
 
 // In the middle of a step, the velocity of before the kick is found again for nodes that were not watched; along held

@@ -33,6 +33,7 @@ class ContactSide final : public ContactParty {
   const Mesh& contact_mesh() const override { return parts_.mesh; }
   std::vector<std::string> surface_names() const override;
   void contact_faces(std::vector<ContactFace>& faces) const override { faces_.list(parts_.groups, faces); }
+  double effusivity(std::int32_t surface) const override;
   std::int64_t surface_version() const override { return version_; }
   void watch(std::span<const LocalIndex> nodes) override;
   std::span<const Vec3> contact_positions() const override { return parts_.nodes.position(); }

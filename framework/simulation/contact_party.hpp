@@ -82,6 +82,9 @@ class ContactParty {
   /// exposed.
   virtual void contact_faces(std::vector<ContactFace>& faces) const = 0;
   virtual void contact_particles(std::vector<ContactParticle>&) const {}
+  /// Local; the same on every rank. sqrt(conductivity density specific heat) of a surface's material, by which heat of
+  /// friction is shared with what it rubs on, W s^0.5/(m^2 K); 0 where it is not known.
+  virtual double effusivity(std::int32_t) const { return 0; }
   /// Changes, on every rank alike, when faces or particles do.
   virtual std::int64_t surface_version() const = 0;
 
