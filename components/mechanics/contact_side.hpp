@@ -3,6 +3,7 @@
 #pragma once
 
 #include "components/mechanics/contact_faces.hpp"
+#include "components/mechanics/erosion.hpp"
 #include "components/mechanics/nodal_conditions.hpp"
 #include "components/mechanics/rigid_bodies.hpp"
 #include "components/mechanics/ties.hpp"
@@ -26,6 +27,7 @@ class ContactSide final : public ContactParty {
     NodalConditions& conditions;
     RigidBodies& rigid;
     const Ties& ties;
+    const LooseNodes* loose;  // null where no element can die
   };
   /// Local.
   explicit ContactSide(const Parts& parts);
@@ -34,6 +36,10 @@ class ContactSide final : public ContactParty {
   std::vector<std::string> surface_names() const override;
   void contact_faces(std::vector<ContactFace>& faces) const override { faces_.list(parts_.groups, faces); }
   double effusivity(std::int32_t surface) const override;
+  void contact_particles(std::vector<ContactParticle>& particles) const override {
+    particles.clear();
+    if (parts_.loose) parts_.loose->particles(parts_.groups, parts_.nodes, particles);
+  }
   std::int64_t surface_version() const override { return version_; }
   void watch(std::span<const LocalIndex> nodes) override;
   std::span<const Vec3> contact_positions() const override { return parts_.nodes.position(); }

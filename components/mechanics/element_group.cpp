@@ -2,6 +2,7 @@
 #include "components/mechanics/element_group.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace tenon {
 
@@ -31,6 +32,40 @@ void ElementGroup::add_masses(const NodalMasses& masses) const {
     const std::span<const LocalIndex> nodes = elements_.nodes(e);
     const double share = value_of(mass, e) / static_cast<double>(nodes.size());
     for (const LocalIndex n : nodes) masses.mass[static_cast<std::size_t>(n)] += share;
+  }
+}
+
+void ElementGroup::erode(const ErosionOptions& options) {
+  least_step_ = options.minimum_step.value_or(0), takes_inverted_ = options.inverted;
+  can_die = true;
+  dead.resize(batches()), internal_energy.resize(batches()), doomed.resize(batches());
+}
+
+void ElementGroup::die(std::size_t batch, int lane) {
+  if (dead[batch][0][lane] == 0) ++deaths;
+  dead[batch][0][lane] = 1;
+}
+
+void ElementGroup::settle(std::size_t batch) {
+  for (int l = 0; l < lanes; ++l)
+    if (doomed[batch][0][l] != 0) die(batch, l), doomed[batch][0][l] = 0;
+}
+
+void ElementGroup::find_gone(std::size_t batch, Batch<1>& gone) const {
+  points.failed(batch, gone);
+  for (int l = 0; l < lanes; ++l)
+    if (dead[batch][0][l] != 0) gone[0][l] = 1;
+}
+
+// By what the state and the positions tell, so that a restart finds the same.
+void ElementGroup::doom(std::size_t batch, Batch<1>& step, Batch<1>& inverted) {
+  for (int l = 0; l < lanes; ++l) {
+    double& s = step[0][l];
+    inverted[0][l] = takes_inverted_ && s == inverted_element ? 1 : 0;
+    if (dead[batch][0][l] != 0 || (inverted[0][l] == 0 && !(s >= 0 && s < least_step_))) continue;
+    if (doomed[batch][0][l] == 0) ++deaths;
+    doomed[batch][0][l] = 1;
+    s = std::numeric_limits<double>::infinity();
   }
 }
 

@@ -116,11 +116,15 @@ class ElementGroup {
   /// m; of solids the mean stress and 0.
   virtual double face_stress(LocalIndex element, int component, bool top) const;
   virtual double thickness(LocalIndex) const { return 0; }
-  bool alive(LocalIndex element) const { return dead.empty() || value_of(dead, element) == 0; }
+  bool alive(LocalIndex element) const {
+    return dead.empty() || (value_of(dead, element) == 0 && (doomed.empty() || value_of(doomed, element) == 0));
+  }
+  /// Before the first step: elements may be taken out by their step or shape.
+  virtual void erode(const ErosionOptions& options);
 
   /// Part of a rigid body: never advanced, and its mass is the body's.
   bool rigid = false;
-  /// Elements of this group may fail and be taken out; how many have been, since the group was made.
+  /// Elements of this group may fail and be taken out; `deaths` grows whenever one is, or is doomed.
   bool can_die = false;
   std::int64_t deaths = 0;
   MaterialPoints points;
@@ -130,9 +134,12 @@ class ElementGroup {
   ElementValues plastic_work;                        ///< J, since the start
   ElementValues hourglass_energy, viscosity_energy;  ///< J, since the start
   ElementValues heat_given;                          ///< J, taken from here by another component; empty unless exported
-  /// Only where the material can fail: 1 from the step on in which it did, and the energy within, J (of a dead element
+  /// Only where elements can die: 1 from the step on in which it did, and the energy within, J (of a dead element
   /// that at its death).
   ElementValues dead, internal_energy;
+  /// Only where their step or shape can take elements out: 1 if it has done so at the present positions. Their stress
+  /// still acts there (not if they are inside out); they are dead from the next step on.
+  ElementValues doomed;
   /// K per J/m^3 of plastic work and m^3/kg: Taylor-Quinney share over specific heat if heated adiabatically, or 0.
   double heating = 0;
   /// Stable step of each element as of the last `advance`, s; filled only while it is not empty.
@@ -150,6 +157,14 @@ class ElementGroup {
   /// Local node of corner i of an element; of the last element in the padding.
   LocalIndex node(LocalIndex element, int corner) const;
   bool follows() const { return !wave_steps.empty(); }
+  /// At the start of a step: what was doomed dies.
+  void settle(std::size_t batch);
+  /// 1 in each lane whose element is dead or has failed.
+  void find_gone(std::size_t batch, Batch<1>& gone) const;
+  void die(std::size_t batch, int lane);
+  /// Dooms the living whose step is too short, or a code that options allow; none of them limits the step. 1 in
+  /// `inverted` for those that are inside out.
+  void doom(std::size_t batch, Batch<1>& step, Batch<1>& inverted);
   /// Takes the steps of a batch, by its elements alone and among their like, into the least shrink.
   void follow(std::size_t batch, const Batch<1>& step, const Batch<1>& wave_step, double& shrink);
 
@@ -158,6 +173,8 @@ class ElementGroup {
   const ElementBlock& elements_;
   LocalIndex size_;
   MaterialDescription material_;
+  double least_step_ = 0;  // s
+  bool takes_inverted_ = false;
 };
 
 }  // namespace tenon

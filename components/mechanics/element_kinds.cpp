@@ -9,10 +9,11 @@
 
 namespace tenon {
 
-std::unique_ptr<ElementGroup> make_element_group(std::size_t block, const ElementBlock& elements,
-                                                 std::span<const Vec3> coordinates,
-                                                 const MechanicsOptions::Block& description,
-                                                 const MechanicsOptions& options) {
+namespace {
+
+std::unique_ptr<ElementGroup> make_group(std::size_t block, const ElementBlock& elements,
+                                         std::span<const Vec3> coordinates, const MechanicsOptions::Block& description,
+                                         const MechanicsOptions& options) {
   using Formulation = MechanicsOptions::Formulation;
   if (!middle_nodes(elements.kind).empty())
     throw Error(ExitCode::usage, fmt::format("mechanics: block '{}' consists of {}; expected elements of first order: "
@@ -24,6 +25,17 @@ std::unique_ptr<ElementGroup> make_element_group(std::size_t block, const Elemen
     return make_hex8_group(block, elements, coordinates, description.material, options.hourglass, options.viscosity);
   return make_solid_group(block, elements, coordinates, description.material, options.viscosity,
                           description.formulation != Formulation::full);
+}
+
+}  // namespace
+
+std::unique_ptr<ElementGroup> make_element_group(std::size_t block, const ElementBlock& elements,
+                                                 std::span<const Vec3> coordinates,
+                                                 const MechanicsOptions::Block& description,
+                                                 const MechanicsOptions& options) {
+  std::unique_ptr<ElementGroup> group = make_group(block, elements, coordinates, description, options);
+  if (options.erosion.takes_elements()) group->erode(options.erosion);
+  return group;
 }
 
 }  // namespace tenon

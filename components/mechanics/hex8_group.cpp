@@ -63,6 +63,7 @@ GroupStep Hex8Group<H>::advance(const NodeArrays& nodes, double dt) {
 template <HourglassForm H>
 void Hex8Group<H>::advance_batch(std::size_t b, const NodeArrays& nodes, double dt, Batch<1>& least, Batch<1>& where,
                                  double& shrink) {
+  if (dt > 0 && !doomed.empty()) settle(b);
   HexModes<Pack> x[halves], v[halves];
   for (int h = 0; h < halves; ++h) {
     x[h] = gather(nodes.position, connectivity_[b], h * pack_width);
@@ -112,7 +113,7 @@ void Hex8Group<H>::update_material(std::size_t b, const NodeArrays& nodes, const
   }
   if (dead.empty()) return;
   Batch<1> volume, failed;
-  points.failed(b, failed);
+  find_gone(b, failed);
   for (int l = 0; l < lanes; ++l)  // what dies in this step does no more work
     for (int i = 0; i < 6 && failed[0][l] != 0; ++i) points.stress(b, 0)[i][l] = 0;
   for (int h = 0; h < halves; ++h) store(volume[0] + h * pack_width, (1.0 / 192.0) * mean_gradient(x[h]).volume_192);
@@ -179,7 +180,8 @@ template <HourglassForm H>
 void Hex8Group<H>::add_energies(std::size_t b, int lane, const ElementForces<Pack>& f, const Work& work) {
   const Pack alive = dead.empty() ? broadcast<Pack>(0.0) : load(dead[b][0] + lane);
   const auto add = [&](ElementValues& to, const Pack& value) {
-    store(to[b][0] + lane, load(to[b][0] + lane) + (alive == 0.0 ? value : Pack{}));
+    const Pack acting = f.volume > 0.0 ? value : Pack{};  // inside out, it stops the run or has no forces
+    store(to[b][0] + lane, load(to[b][0] + lane) + (alive == 0.0 ? acting : Pack{}));
   };
   add(hourglass_energy, f.hourglass_energy);
   add(viscosity_energy, f.viscosity_energy);
@@ -193,17 +195,21 @@ void Hex8Group<H>::add_energies(std::size_t b, int lane, const ElementForces<Pac
 template <HourglassForm H>
 void Hex8Group<H>::bury(std::size_t b, double (*rows)[8][pack_width], Batch<1>& step) {
   Batch<1> failed;
-  points.failed(b, failed);
+  find_gone(b, failed);
   for (int l = 0; l < lanes; ++l) {
     if (failed[0][l] == 0) continue;
-    if (dead[b][0][l] == 0) ++deaths;
-    dead[b][0][l] = 1;
+    die(b, l);
     for (int i = 0; i < 6; ++i) points.stress(b, 0)[i][l] = 0;
     if constexpr (H::state_size > 0)
       for (int i = 0; i < H::state_size; ++i) hourglass_state_[b][i][l] = 0;
     clear(rows[l]);
     step[0][l] = std::numeric_limits<double>::infinity();
   }
+  if (doomed.empty()) return;
+  Batch<1> inverted;
+  doom(b, step, inverted);
+  for (int l = 0; l < lanes; ++l)
+    if (inverted[0][l] != 0) clear(rows[l]);
 }
 
 template <HourglassForm H>

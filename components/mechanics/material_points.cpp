@@ -53,7 +53,8 @@ double MaterialPoints::mean_history(std::int32_t element, int row) const {
 void MaterialPoints::failed(std::size_t batch, Batch<1>& result) const {
   for (int l = 0; l < lanes; ++l) {
     bool any = false;
-    for (int p = 0; p < points_; ++p) any = any || history(batch, p)[model_->damage()][0][l] >= 1;
+    for (int p = 0; p < points_ && model_->damage() >= 0; ++p)
+      any = any || history(batch, p)[model_->damage()][0][l] >= 1;
     result[0][l] = any ? 1 : 0;
   }
 }

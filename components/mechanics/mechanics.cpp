@@ -83,7 +83,7 @@ ContactParty* Mechanics::contact_party() {
                                      "their own have none; use time_step.subcycling: 1");
   if (!contact_)
     contact_ = std::make_unique<ContactSide>(
-        ContactSide::Parts{*mesh_, options_, groups_, nodes_, conditions_, *rigid_, *ties_});
+        ContactSide::Parts{*mesh_, options_, groups_, nodes_, conditions_, *rigid_, *ties_, loose_.get()});
   return contact_.get();
 }
 
@@ -262,10 +262,10 @@ void Mechanics::choose_step() {
   const ScopedTimer timer(*phases_.reduce);
   last_good_ = limit_;
   const std::int64_t deaths = local_deaths();
-  std::array<double, 4> least{local_least_.step, local_least_.shrink, local_shortest_, deaths > deaths_ ? 0.0 : 1.0};
+  std::array<double, 4> least{local_least_.step, local_least_.shrink, local_shortest_, deaths != deaths_ ? 0.0 : 1.0};
   deaths_ = deaths;
   mesh_->comm.min(std::span<double>(least));
-  if (contact_ && least[3] == 0) contact_->change_surface();
+  if (least[3] == 0) follow_deaths();
   estimate_ = least[0], shortest_ = least[2];
   if (estimate_ < 0) fail(estimate_);
   if (first_estimate_ == 0) first_estimate_ = estimate_;
@@ -280,6 +280,23 @@ std::int64_t Mechanics::local_deaths() const {
   std::int64_t sum = 0;
   for (const auto& group : groups_) sum += group->deaths;
   return sum;
+}
+
+// Elements have died on some rank.
+void Mechanics::follow_deaths() {
+  if (contact_) contact_->change_surface();
+  if (!loose_ || options_.erosion.loose_nodes == ErosionOptions::LooseNodes::keep) return;
+  loose_->remove(groups_, nodes_);
+  sum_removed();
+}
+
+void Mechanics::sum_removed() {
+  std::array<ExactSum, 4> sums;
+  for (const LooseNodes::Removed& removed : loose_->removed()) {
+    sums[0].add(removed.mass);
+    for (std::size_t c = 0; c < 3; ++c) sums[1 + c].add(removed.momentum[c]);
+  }
+  mesh_->comm.sum(sums, removed_);
 }
 
 // What the user wants of what elements that allow `limit` allow together with everything else, s.

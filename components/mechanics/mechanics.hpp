@@ -100,6 +100,8 @@ class Mechanics final : public Component {
   void take_short_steps(double dt);
   double kick_length(double dt) const { return 0.5 * (previous_dt_ + dt); }
   std::int64_t local_deaths() const;
+  void follow_deaths();
+  void sum_removed();
   void set_rigid_rates();
   void set_bound_rates();
   void refresh_ghosts();
@@ -152,6 +154,8 @@ class Mechanics final : public Component {
   std::unique_ptr<RigidBodies> rigid_;
   std::unique_ptr<Ties> ties_;
   AddedMass added_mass_;
+  std::unique_ptr<LooseNodes> loose_;     // where elements can die
+  std::array<double, 4> removed_{};       // of all ranks: mass, kg, and momentum, kg m/s
   std::unique_ptr<ContactSide> contact_;  // if asked for
   std::int64_t deaths_ = 0;               // of elements of this rank, as of the last step
 

@@ -83,6 +83,14 @@ void Mechanics::save(CheckpointWriter& file) {
   }
   for (const Loads::Row& row : loads_->rows())
     node_array(row.name, 1, [&](std::size_t n, std::size_t) { return row.work[n]; });
+  if (loose_ && removed_[0] > 0) {
+    file.integer(key("removes"), 1);
+    std::vector<LooseNodes::Removed> removed = loose_->removed();
+    removed.resize(nodes_.size());
+    node_array("removed_mass", 1, [&](std::size_t n, std::size_t) { return removed[n].mass; });
+    node_array("removed_momentum", 3, [&](std::size_t n, std::size_t c) { return removed[n].momentum[c]; });
+    node_array("removed_energy", 1, [&](std::size_t n, std::size_t) { return removed[n].energy; });
+  }
   if (contact_) {
     node_array("contact_work", 1, [&](std::size_t n, std::size_t) { return contact_->node_work()[n]; });
     file.scalar(key("contact_body_work"), contact_->body_work());
@@ -152,6 +160,17 @@ void Mechanics::load(const CheckpointReader& file) {
   }
   for (Loads::Row& row : loads_->rows())
     node_array(row.name, 1, [&](std::size_t n, std::size_t) -> double& { return row.work[n]; });
+  if (loose_ && file.has(key("removes"))) {
+    std::vector<LooseNodes::Removed>& removed = loose_->removed();
+    removed.resize(nodes_.size());
+    node_array("removed_mass", 1, [&](std::size_t n, std::size_t) -> double& { return removed[n].mass; });
+    node_array("removed_momentum", 3, [&](std::size_t n, std::size_t c) -> double& { return removed[n].momentum[c]; });
+    node_array("removed_energy", 1, [&](std::size_t n, std::size_t) -> double& { return removed[n].energy; });
+    for (LocalIndex n = 0; n < mesh_->nodes(); ++n)
+      if (!mesh_->owns_node(n)) removed[static_cast<std::size_t>(n)] = {};
+    loose_->restore(nodes_);
+    sum_removed();
+  }
   // A run that goes on without contact keeps the work of that before; one that begins with it starts from none.
   if (file.has(key("contact_body_work")) && options_.time_step.subcycling == 1) {
     contact_party();

@@ -39,7 +39,7 @@ void Mechanics::energies(std::vector<EnergyTerm>& terms) {
   if (mesh_->comm.rank() == 0) kinetic.local.add(rigid_->kinetic_energy());
   bool has_plasticity = false, can_fail = false;
   for (const auto& group : groups_)
-    has_plasticity = has_plasticity || group->model().plastic(), can_fail = can_fail || group->model().damage() >= 0;
+    has_plasticity = has_plasticity || group->model().plastic(), can_fail = can_fail || group->can_die;
   for_owned(*mesh_, groups_, [&](const ElementGroup& group, LocalIndex e) {
     const double h = value_of(group.hourglass_energy, e), v = value_of(group.viscosity_energy, e);
     hourglass.local.add(h), viscosity.local.add(v);
@@ -50,6 +50,8 @@ void Mechanics::energies(std::vector<EnergyTerm>& terms) {
     if (has_plasticity) plastic.local.add(value_of(group.plastic_work, e)), generated.local.add(heat(group, e));
   });
   for (EnergyTerm* term : {&kinetic, &internal, &hourglass, &viscosity}) terms.push_back(std::move(*term));
+  if (loose_)
+    for (const LooseNodes::Removed& removed : loose_->removed()) eroded.local.add(removed.energy);
   if (can_fail) terms.push_back(std::move(eroded));
   if (conditions_.has_motions()) terms.push_back(std::move(boundary));
   if (conditions_.has_walls()) terms.push_back(std::move(wall));

@@ -74,6 +74,8 @@ std::vector<ExportPort> Mechanics::exports() {
     ports.push_back(element_port("damage", 1, "1", [](const Group& g, LocalIndex e, int) {
       return g.model().damage() >= 0 ? g.history(e, g.model().damage()) : 0.0;
     }));
+  }
+  if (loose_) {
     ports.push_back(element_port("element_status", 1, "1",
                                  [](const Group& g, LocalIndex e, int) { return g.alive(e) ? 1.0 : 0.0; }));
   }
@@ -146,7 +148,7 @@ std::vector<HistoryValue> Mechanics::history_values() {
   double dead = 0;
   bool can_fail = false;
   for (const auto& group : groups_) {
-    plastic = plastic || group->model().plastic(), can_fail = can_fail || group->model().damage() >= 0;
+    plastic = plastic || group->model().plastic(), can_fail = can_fail || group->can_die;
     for (LocalIndex e = 0; e < group->size(); ++e) {
       if (group->model().plastic()) eqps = std::max(eqps, group->history(e, 0));
       von_mises = std::max(von_mises, von_mises_stress(*group, e));
@@ -167,6 +169,11 @@ std::vector<HistoryValue> Mechanics::history_values() {
   if (options_.loads.mass_scaling) values.push_back({"added_mass", Reduce::max, added_mass_.added});
   if (relaxation_) values.push_back({"relaxation_residual", Reduce::max, relaxation_->residual()});
   if (can_fail) values.push_back({"failed_elements", Reduce::sum, dead});
+  if (loose_ && options_.erosion.loose_nodes == ErosionOptions::LooseNodes::remove) {
+    values.push_back({"removed_mass", Reduce::max, removed_[0]});
+    for (std::size_t c = 0; c < 3; ++c)
+      values.push_back({std::string("removed_momentum_") + "xyz"[c], Reduce::max, removed_[1 + c]});
+  }
   return values;
 }
 

@@ -34,6 +34,19 @@ struct TimeStepOptions {
   double collapse = 1e-4;         ///< the run stops when the estimate falls below this share of the first one
 };
 
+/// When elements are taken out, other than by the failure of their material, and what becomes of their nodes.
+struct ErosionOptions {
+  enum class LooseNodes {
+    keep,   ///< nodes that no element holds any more fly on as point masses
+    remove  ///< they leave the body with their mass, momentum and energy
+  };
+  std::optional<double> minimum_step;  ///< s: an element whose own stable step falls below is taken out
+  bool inverted = false;               ///< elements that turn inside out are taken out; else they stop the run
+  LooseNodes loose_nodes = LooseNodes::keep;
+
+  bool takes_elements() const { return minimum_step || inverted; }
+};
+
 /// Where the share of plastic work that turns into heat goes.
 enum class HeatMode {
   none,       ///< it is only shown in the ledger
@@ -98,6 +111,7 @@ struct MechanicsOptions {
   HourglassOptions hourglass;
   BulkViscosity viscosity;
   TimeStepOptions time_step;
+  ErosionOptions erosion;
   HeatMode heat = HeatMode::none;
   std::optional<double> initial_temperature;  ///< K; else the reference temperature of the material
   std::vector<InitialVelocity> initial_velocities;

@@ -106,6 +106,9 @@ void Mechanics::set_constraints() {
   for (const LocalIndex n : ties_->nodes()) inverse_mass[static_cast<std::size_t>(n)] = -1;  // none of their own
   rigid_->bound_inverse_mass(inverse_mass);
   loads_->finish(*mesh_, nodes_, groups_, inverse_mass);
+  for (const LocalIndex n : ties_->face_nodes()) bound[static_cast<std::size_t>(n)] = true;
+  if (std::ranges::any_of(groups_, [](const auto& group) { return group->can_die; }))
+    loose_ = std::make_unique<LooseNodes>(*mesh_, std::vector<char>(bound.begin(), bound.end()));
   if (options.relaxation) relaxation_ = std::make_unique<KineticRelaxation>(*options.relaxation, *mesh_);
 }
 

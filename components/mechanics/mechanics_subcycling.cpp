@@ -107,6 +107,7 @@ void Mechanics::split(const ElementLevels& levels) {
     if (!mesh_->comm.any(more)) break;
   }
   groups_.replace(std::move(groups), std::move(places));
+  deaths_ = 0;
   parts_ = std::move(parts);
   levels_ = levels;
   const std::vector<int> busy = busy_nodes();

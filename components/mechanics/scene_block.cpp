@@ -120,6 +120,13 @@ void read_control(const Value& value, MechanicsOptions& options, Diagnostics& di
       diagnostics.error(step.where("subcycling"), "subcycling: expected a power of two: 1, 2, 4, 8, ...");
     if (step.has("maximum")) options.time_step.maximum = step.real("maximum");
   }
+  if (value.has("erosion")) {
+    using LooseNodes = ErosionOptions::LooseNodes;
+    const Value erosion = value.child("erosion");
+    if (erosion.has("minimum_step")) options.erosion.minimum_step = erosion.real("minimum_step");
+    options.erosion.inverted = erosion.text("inverted") == "remove";
+    options.erosion.loose_nodes = erosion.text("loose_nodes") == "remove" ? LooseNodes::remove : LooseNodes::keep;
+  }
 }
 
 void read_initial(const Value& value, const SceneReader& reader, MechanicsOptions& options) {

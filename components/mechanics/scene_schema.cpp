@@ -76,6 +76,21 @@ Schema time_step_schema() {
   return s;
 }
 
+Schema erosion_schema() {
+  Schema s(
+      "When elements are taken out other than by the `failure` of their material, and what becomes of their nodes.");
+  s.quantity("minimum_step", "s", "An element whose own stable step falls below this is taken out.", "",
+             Range::positive());
+  s.choice("inverted", {"stop", "remove"},
+           "What an element does that turns inside out: `stop` the run, or be taken out (`remove`).", "stop");
+  s.choice(
+      "loose_nodes", {"keep", "remove"},
+      "Nodes that no element holds any more: `keep` them as point masses, which touch others as balls; or `remove` "
+      "them: their kinetic energy goes to eroded_energy, and the history has their mass and momentum.",
+      "keep");
+  return s;
+}
+
 Schema initial_velocity_schema() {
   Schema s("Velocity at the start of a block, of a node set, or everywhere; later entries win.");
   s.text("block", "Block of the mesh.");
@@ -153,6 +168,7 @@ Schema mechanics_schema() {
   s.object("hourglass", hourglass_schema(), "Resistance to the zero-energy modes of the elements.");
   s.object("bulk_viscosity", viscosity_schema(), "Artificial pressure in shocks.");
   s.object("time_step", time_step_schema(), "Time step of the component.");
+  s.object("erosion", erosion_schema(), "Elements that are taken out, and the nodes that they leave.");
   s.choice("heat", {"none", "adiabatic", "exported"},
            "Where the heat of plastic work goes: `none` nowhere; `adiabatic` stays in the element; `exported` waits in "
            "the field plastic_heat for a transfer.",

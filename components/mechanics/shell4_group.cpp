@@ -167,6 +167,7 @@ void ShellGroup<S>::fetch(std::size_t b) const {
 template <typename S>
 void ShellGroup<S>::advance_batch(std::size_t b, const NodeArrays& nodes, double dt, Batch<1>& least, Batch<1>& where) {
   if (b + 1 < batches()) fetch(b + 1);
+  if (dt > 0 && !doomed.empty()) settle(b);
   Work work;
   for (int lane = 0; lane < lanes; lane += pack_width) place(nodes.position, connectivity_[b], lane, work);
   if (dt > 0) {
@@ -439,6 +440,7 @@ TENON_KERNEL void ShellGroup<S>::add_energies(std::size_t b, int lane, const Pac
 // A layer that has failed carries nothing; an element dies with half of its layers.
 template <typename S>
 void ShellGroup<S>::drop_failed_layers(std::size_t b, int point) {
+  if (model().damage() < 0) return;
   const double* damage = points.history(b, point)[model().damage()][0];
   for (int l = 0; l < lanes; ++l)
     for (int i = 0; i < 6 && damage[l] >= 1; ++i) points.stress(b, point)[i][l] = 0;
@@ -448,10 +450,10 @@ template <typename S>
 void ShellGroup<S>::bury(std::size_t b, Rows force, Rows moment, Batch<1>& step) {
   for (int l = 0; l < lanes; ++l) {
     int failed = 0;
-    for (int p = 0; p < points.points(); ++p) failed += points.history(b, p)[model().damage()][0][l] >= 1 ? 1 : 0;
-    if (2 * failed < points.points()) continue;
-    if (dead[b][0][l] == 0) ++deaths;
-    dead[b][0][l] = 1;
+    for (int p = 0; p < points.points() && model().damage() >= 0; ++p)
+      failed += points.history(b, p)[model().damage()][0][l] >= 1 ? 1 : 0;
+    if (dead[b][0][l] == 0 && 2 * failed < points.points()) continue;
+    die(b, l);
     for (int p = 0; p < points.points(); ++p)
       for (int i = 0; i < 6; ++i) points.stress(b, p)[i][l] = 0;
     for (int i = 0; i < varying; ++i) varying_[b][i][l] = 0;
@@ -459,6 +461,12 @@ void ShellGroup<S>::bury(std::size_t b, Rows force, Rows moment, Batch<1>& step)
       for (int c = 0; c < pack_width; ++c) force[l][i][c] = moment[l][i][c] = 0;
     step[0][l] = std::numeric_limits<double>::infinity();
   }
+  if (doomed.empty()) return;
+  Batch<1> inverted;
+  doom(b, step, inverted);
+  for (int l = 0; l < lanes; ++l)
+    for (int i = 0; i < S::nodes && inverted[0][l] != 0; ++i)
+      for (int c = 0; c < pack_width; ++c) force[l][i][c] = moment[l][i][c] = 0;
 }
 
 template class ShellGroup<QuadShell>;

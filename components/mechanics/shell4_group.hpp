@@ -33,6 +33,7 @@ class ShellGroup final : public ElementGroup {
   double stress(LocalIndex element, int component) const override;
   double face_stress(LocalIndex element, int component, bool top) const override;
   double thickness(LocalIndex element) const override { return value_of(thickness_, element); }
+  void erode(const ErosionOptions& options) override;
   std::vector<StateArray> state() override;
   std::int64_t memory() const override;
 

@@ -157,6 +157,17 @@ double ShellGroup<S>::face_stress(LocalIndex element, int component, bool top) c
   return in_body_axes(element, outer, component);
 }
 
+// Only the way layer by layer knows the energy within.
+template <typename S>
+void ShellGroup<S>::erode(const ErosionOptions& options) {
+  ElementGroup::erode(options);
+  law_.reset();
+  if (!reference_volume_.empty()) return;
+  reference_volume_ = mass;
+  for (Batch<1>& volume : reference_volume_)
+    for (int l = 0; l < lanes; ++l) volume[0][l] /= material().density;
+}
+
 template <typename S>
 std::vector<StateArray> ShellGroup<S>::state() {
   std::vector<StateArray> arrays = ElementGroup::state();

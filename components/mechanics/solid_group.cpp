@@ -39,6 +39,12 @@ SolidGroup<N, P>::SolidGroup(std::size_t block, const ElementBlock& elements, st
 }
 
 template <int N, int P>
+void SolidGroup<N, P>::erode(const ErosionOptions& options) {
+  ElementGroup::erode(options);
+  if (averaged_) expansion_.resize(batches()), mean_.resize(batches());
+}
+
+template <int N, int P>
 std::string_view SolidGroup<N, P>::formulation() const {
   if (averaged_) return N == 4 ? "tet4, nodal dilatation" : "wedge6, nodal dilatation";
   if constexpr (P == 1) return "tet4";
@@ -109,6 +115,7 @@ void SolidGroup<N, P>::measure(std::size_t b, int lane, const NodeArrays& nodes,
 
 template <int N, int P>
 void SolidGroup<N, P>::update(std::size_t b, const NodeArrays& nodes, double dt) {
+  if (!doomed.empty()) settle(b);
   Work work;
   for (int h = 0; h < halves; ++h) deform(b, h * pack_width, nodes, dt, work);
   for (int h = 0; h < halves && needs_measures_; ++h) measure(b, h * pack_width, nodes, work);
@@ -145,11 +152,11 @@ void SolidGroup<N, P>::update(std::size_t b, const NodeArrays& nodes, double dt)
 template <int N, int P>
 void SolidGroup<N, P>::bury(std::size_t b, const Work& work, const Batch<1>* shares) {
   Batch<1> failed;
-  points.failed(b, failed);
+  find_gone(b, failed);
   for (int p = 0; p < P; ++p) {
     Batch<6>& now = points.stress(b, p);
     for (int l = 0; l < lanes; ++l)
-      for (int i = 0; i < 6 && (failed[0][l] != 0 || dead[b][0][l] != 0); ++i) now[i][l] = 0;
+      for (int i = 0; i < 6 && failed[0][l] != 0; ++i) now[i][l] = 0;
     if (averaged_)
       add_deviatoric_power(work.before[p], now, work.strain[p], shares[p], dead[b], internal_energy[b]);
     else
@@ -158,7 +165,7 @@ void SolidGroup<N, P>::bury(std::size_t b, const Work& work, const Batch<1>* sha
   for (int l = 0; l < lanes && averaged_; ++l)
     if (dead[b][0][l] == 0) internal_energy[b][0][l] += 0.5 * mean_[b][0][l] * expansion_[b][0][l];
   for (int l = 0; l < lanes; ++l)
-    if (failed[0][l] != 0 && dead[b][0][l] == 0) dead[b][0][l] = 1, ++deaths;
+    if (failed[0][l] != 0) die(b, l);
 }
 
 // omega^2 <= N/m (kappa V |mean gradient|^2 + 2 mu sum over points of their share of the greatest eigenvalue of G):
@@ -189,10 +196,10 @@ void SolidGroup<N, P>::resist(std::size_t b, int lane, const NodeArrays& nodes, 
   }
   mean = averaged_ ? nodal_mean(b, lane) : mean / g.volume;
   if (!mean_.empty()) {
-    const Pack living = load(dead[b][0] + lane) == 0.0 ? mean : Pack{};
+    const Pack gone = load(dead[b][0] + lane), work = 0.5 * mean * load(expansion_[b][0] + lane);
     double* energy = internal_energy[b][0] + lane;
-    if (dt > 0) store(energy, load(energy) + 0.5 * living * load(expansion_[b][0] + lane));
-    store(mean_[b][0] + lane, living);
+    if (dt > 0) store(energy, load(energy) + (gone == 0.0 ? work : Pack{}));
+    store(mean_[b][0] + lane, gone == 0.0 ? mean : Pack{});
   }
   Pack squares{};
   for (int a = 0; a < N; ++a) squares = squares + dot(g.mean[a], g.mean[a]);
@@ -223,16 +230,22 @@ void SolidGroup<N, P>::resist(std::size_t b, int lane, const NodeArrays& nodes, 
   if (dt == 0) return;
   const Pack gone = dead.empty() ? Pack{} : load(dead[b][0] + lane);
   const Pack energy = gone == 0.0 ? dt * (viscous * rate * g.volume) : Pack{};
-  store(viscosity_energy[b][0] + lane, load(viscosity_energy[b][0] + lane) + energy);
+  const Pack upright = g.least > 0.0 ? energy : Pack{};  // forces of others do not act
+  store(viscosity_energy[b][0] + lane, load(viscosity_energy[b][0] + lane) + upright);
 }
 
 template <int N, int P>
-void SolidGroup<N, P>::silence(std::size_t b, double (*rows)[N][pack_width], Batch<1>& step) const {
+void SolidGroup<N, P>::silence(std::size_t b, double (*rows)[N][pack_width], Batch<1>& step) {
   for (int l = 0; l < lanes; ++l) {
     if (dead[b][0][l] == 0) continue;
     for (int i = 0; i < N; ++i) std::fill(rows[l][i], rows[l][i] + pack_width, 0.0);
     step[0][l] = std::numeric_limits<double>::infinity();
   }
+  if (doomed.empty()) return;
+  Batch<1> inverted;
+  doom(b, step, inverted);
+  for (int l = 0; l < lanes; ++l)
+    for (int i = 0; i < N && inverted[0][l] != 0; ++i) std::fill(rows[l][i], rows[l][i] + pack_width, 0.0);
 }
 
 template <int N, int P>

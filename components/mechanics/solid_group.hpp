@@ -28,6 +28,7 @@ class SolidGroup final : public ElementGroup {
   void add_product(const NodeArrays& nodes, const double* u, double stiffness, double damping,
                    ForceRow* out) const override;
   double volume(LocalIndex element, std::span<const Vec3> positions) const override;
+  void erode(const ErosionOptions& options) override;
   std::vector<StateArray> state() override;
   std::int64_t memory() const override;
 
@@ -49,7 +50,7 @@ class SolidGroup final : public ElementGroup {
   void resist(std::size_t b, int lane, const NodeArrays& nodes, double dt, double (*rows)[N][pack_width],
               Batch<1>& step, Batch<1>& wave_step);
   void bury(std::size_t b, const Work& work, const Batch<1>* shares);
-  void silence(std::size_t b, double (*rows)[N][pack_width], Batch<1>& step) const;
+  void silence(std::size_t b, double (*rows)[N][pack_width], Batch<1>& step);
   void store_rows(const Vectors& f, double (*rows)[N][pack_width]) const;
   void scatter(const double (*rows)[N][pack_width], std::size_t b, double* force) const;
   // Of averaged elements.
@@ -72,7 +73,7 @@ class SolidGroup final : public ElementGroup {
   // V/V0 by the averaged volume strains since the start, if the material asks for it: what did the work on it, and what
   // the death of a neighbour leaves as it is.
   ElementValues volume_ratio_;
-  // Where the material can fail: change of the element's own volume in the step, m^3, and the averaged mean stress, Pa.
+  // Where elements can die: change of the element's own volume in the step, m^3, and the averaged mean stress, Pa.
   ElementValues expansion_, mean_;
 };
 
