@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace tenon {
@@ -14,6 +15,13 @@ ContactSide::ContactSide(const Parts& parts)
       place_(parts.nodes.size(), -1),
       work_(parts.nodes.size()) {
   parts_.conditions.remember_holds(parts.nodes.size());
+  if (parts_.ties.empty()) return;
+  tied_compliance_ = parts_.ties.compliance(parts_.nodes.inverse_mass);
+  tied_impulse_.resize(parts_.nodes.size());
+  left_out_ = parts_.mesh.comm.sum(faces_.left_out());
+  shared_.resize(6 * parts_.rigid.size()), shared_total_.resize(shared_.size());
+  shared_impulse_.resize(parts_.rigid.size());
+  watch({});
 }
 
 /// 1 for nodes that follow ties or are tied to; empty without ties.
@@ -43,21 +51,29 @@ double ContactSide::effusivity(std::int32_t surface) const {
 }
 
 // In the middle of a step, the velocity of before the kick is found again for nodes that were not watched; along held
-// directions it stays unknown, where it does not matter: contact and reaction take it with opposite signs.
+// directions it stays unknown, where it does not matter: contact and reaction take it with opposite signs. Nodes of
+// faces that others are tied to are watched as well.
 void ContactSide::watch(std::span<const LocalIndex> nodes) {
-  std::vector<Vec3> former(nodes.size()), impulse(nodes.size());
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const auto n = static_cast<std::size_t>(nodes[i]);
+  std::vector<LocalIndex> all(nodes.begin(), nodes.end());
+  if (!parts_.ties.empty()) {
+    std::vector<LocalIndex> more = parts_.ties.face_nodes();
+    std::ranges::sort(more);
+    more.erase(std::unique(more.begin(), more.end()), more.end());
+    std::ranges::set_difference(more, nodes, std::back_inserter(all));
+  }
+  std::vector<Vec3> former(all.size()), impulse(all.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const auto n = static_cast<std::size_t>(all[i]);
     if (place_[n] >= 0) {
-      former[i] = former_[static_cast<std::size_t>(place_[n])],
+      former[i] = former_[static_cast<std::size_t>(place_[n])];
       impulse[i] = impulse_[static_cast<std::size_t>(place_[n])];
       continue;
     }
     const double* f = parts_.nodes.force[n].v;
-    former[i] = parts_.nodes.velocity()[n] + kick_ * moved(mobility(nodes[i]), {f[0], f[1], f[2]});
+    former[i] = parts_.nodes.velocity()[n] + kick_ * moved(mobility(all[i]), {f[0], f[1], f[2]});
   }
   for (const LocalIndex n : watched_) place_[static_cast<std::size_t>(n)] = -1;
-  watched_.assign(nodes.begin(), nodes.end());
+  watched_ = std::move(all), chosen_ = nodes.size();
   for (std::size_t i = 0; i < watched_.size(); ++i)
     place_[static_cast<std::size_t>(watched_[i])] = static_cast<std::int32_t>(i);
   former_ = std::move(former), impulse_ = std::move(impulse);
@@ -87,6 +103,10 @@ Mobility ContactSide::mobility(LocalIndex node) const {
     m.body = parts_.rigid.body_of(node);
     return m;
   }
+  if (const std::int32_t tied = parts_.ties.index_of(node); tied >= 0) {
+    m.w[0] = m.w[1] = m.w[2] = tied_compliance_[static_cast<std::size_t>(tied)];
+    return m;
+  }
   const double inverse = parts_.nodes.inverse_mass[static_cast<std::size_t>(node)];
   const NodalConditions::Holds holds = parts_.conditions.holds(node);
   if (holds.count == 3 || inverse == 0) return m;
@@ -107,23 +127,70 @@ void ContactSide::push_node(LocalIndex node, const Vec3& p) {
   const auto n = static_cast<std::size_t>(node);
   assert(place_[n] >= 0);
   const auto i = static_cast<std::size_t>(place_[n]);
-  const Vec3 dv = moved(mobility(node), p);
-  Vec3& v = parts_.nodes.velocity()[n];
-  v = v + dv;
-  const Vec3 mean = 0.5 * (former_[i] + v);
-  work_[n] += dot(p, mean) + 0.5 * dot(impulse_[i], dv);
-  const double* f = parts_.nodes.force[n].v;
-  parts_.nodes.internal_work[n] += 0.5 * kick_ * dot({f[0], f[1], f[2]}, dv);
+  change_velocity(node, moved(mobility(node), p));
+  const Vec3 mean = 0.5 * (former_[i] + parts_.nodes.velocity()[n]);
+  work_[n] += dot(p, mean);
   parts_.conditions.react(node, p, mean);
   impulse_[i] = impulse_[i] + p;
 }
 
+// What the forces of the kick and the impulses so far do on it.
+void ContactSide::change_velocity(LocalIndex node, const Vec3& dv) {
+  const auto n = static_cast<std::size_t>(node);
+  parts_.nodes.velocity()[n] = parts_.nodes.velocity()[n] + dv;
+  const double* f = parts_.nodes.force[n].v;
+  parts_.nodes.internal_work[n] += 0.5 * kick_ * dot({f[0], f[1], f[2]}, dv);
+  work_[n] += 0.5 * dot(impulse_[static_cast<std::size_t>(place_[n])], dv);
+}
+
 void ContactSide::push(std::span<const LocalIndex> nodes, std::span<const Vec3> impulses,
                        std::span<const BodyImpulse> bodies) {
-  for (std::size_t i = 0; i < nodes.size(); ++i) push_node(nodes[i], impulses[i]);
-  if (bodies.empty()) return;
-  body_work_ += parts_.rigid.push(bodies);
-  parts_.rigid.set_rates(parts_.nodes);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (parts_.ties.index_of(nodes[i]) < 0)
+      push_node(nodes[i], impulses[i]);
+    else
+      tied_impulse_[static_cast<std::size_t>(nodes[i])] = impulses[i];
+  }
+  if (!bodies.empty()) body_work_ += parts_.rigid.push(bodies);
+  if (!parts_.ties.empty()) push_through_ties();
+  if (!parts_.rigid.empty()) parts_.rigid.set_rates(parts_.nodes);
+  if (!parts_.ties.empty()) parts_.ties.follow(parts_.nodes);
+}
+
+// An impulse on a tied node goes to the nodes of its face, which may belong to a rigid body.
+void ContactSide::push_through_ties() {
+  for (ExactSum& sum : shared_) sum.clear();
+  parts_.ties.share(tied_impulse_, [&](LocalIndex node, const Vec3& p) {
+    if (dot(p, p) == 0) return;
+    if (parts_.rigid.empty() || !parts_.rigid.holds(node)) return push_node(node, p);
+    const auto b = static_cast<std::size_t>(parts_.rigid.body_of(node));
+    const Vec3 arm = parts_.nodes.position()[static_cast<std::size_t>(node)] - parts_.rigid.state(b).pivot;
+    const Vec3 moment = cross(arm, p);
+    for (std::size_t c = 0; c < 3; ++c) shared_[6 * b + c].add(p[c]), shared_[6 * b + 3 + c].add(moment[c]);
+  });
+  for (const LocalIndex n : parts_.ties.nodes()) tied_impulse_[static_cast<std::size_t>(n)] = {};
+  if (shared_.empty()) return;
+  parts_.mesh.comm.sum(shared_, shared_total_);
+  for (std::size_t b = 0; b < shared_impulse_.size(); ++b) {
+    const double* t = shared_total_.data() + 6 * b;
+    shared_impulse_[b] = {{t[0], t[1], t[2]}, {t[3], t[4], t[5]}};
+  }
+  body_work_ += parts_.rigid.push(shared_impulse_);
+}
+
+void ContactSide::end(double dt) {
+  Vec3 dv{};
+  for (std::size_t i = 0; i < watched_.size() && parts_.conditions.has_walls(); ++i) {
+    if (dot(impulse_[i], impulse_[i]) == 0) continue;
+    const LocalIndex node = watched_[i];
+    const auto n = static_cast<std::size_t>(node);
+    while (parts_.nodes.mass[n] > 0 && parts_.conditions.stop(node, parts_.nodes, dt, dv)) {
+      change_velocity(node, dv);
+      const Vec3 mean = 0.5 * (former_[i] + parts_.nodes.velocity()[n]);
+      parts_.conditions.add_wall_work(node, parts_.nodes.mass[n] * dot(dv, mean));
+    }
+  }
+  if (!parts_.ties.empty()) parts_.ties.follow(parts_.nodes);
 }
 
 ExactSum ContactSide::contact_work() const {

@@ -29,7 +29,7 @@ class ContactSide final : public ContactParty {
     const Ties& ties;
     const LooseNodes* loose;  // null where no element can die
   };
-  /// Local.
+  /// Collective.
   explicit ContactSide(const Parts& parts);
 
   const Mesh& contact_mesh() const override { return parts_.mesh; }
@@ -45,7 +45,7 @@ class ContactSide final : public ContactParty {
   std::span<const Vec3> contact_positions() const override { return parts_.nodes.position(); }
   std::span<const Vec3> contact_velocities() const override { return parts_.nodes.velocity(); }
   double contact_kick() const override { return kick_; }
-  std::span<const Vec3> former_velocities() const override { return former_; }
+  std::span<const Vec3> former_velocities() const override { return {former_.data(), chosen_}; }
   void mobilities(std::span<const LocalIndex> nodes, std::span<Mobility> mobility) const override;
   std::vector<ContactRigidBody> contact_rigid_bodies() const override { return parts_.rigid.contact_bodies(); }
   void push(std::span<const LocalIndex> nodes, std::span<const Vec3> impulses,
@@ -56,6 +56,8 @@ class ContactSide final : public ContactParty {
 
   /// Local. Remembers the velocities before the kick, which takes `kick` seconds.
   void begin(double kick);
+  /// Collective. Before the drift over dt: walls stop what impulses have sent through them, and ties follow.
+  void end(double dt);
   /// Elements have died, on some rank.
   void change_surface() { ++version_; }
   /// Null until contact has asked for them.
@@ -64,25 +66,35 @@ class ContactSide final : public ContactParty {
   /// J, by impulses on nodes, and on rigid bodies (the same on every rank): what a restart needs.
   std::vector<double>& node_work() { return work_; }
   double& body_work() { return body_work_; }
-  /// Faces of this rank that ties cover.
-  std::int64_t left_out() const { return faces_.left_out(); }
+  /// Faces that ties cover, of all ranks.
+  std::int64_t left_out() const { return left_out_; }
   std::int64_t memory() const;
 
  private:
   static std::vector<char> tied(const Parts& parts);
   Mobility mobility(LocalIndex node) const;
   void push_node(LocalIndex node, const Vec3& impulse);
+  void change_velocity(LocalIndex node, const Vec3& dv);
+  void push_through_ties();
 
   Parts parts_;
   ContactFaces faces_;
   std::int64_t version_ = 0;
   double kick_ = 0;
-  std::vector<LocalIndex> watched_;
+  std::vector<LocalIndex> watched_;  // those that contact has chosen, then others that ties push
+  std::size_t chosen_ = 0;
   std::vector<std::int32_t> place_;  // of each local node in watched_, or -1
   std::vector<Vec3> former_;         // as watched_: velocities before the kick
   std::vector<Vec3> impulse_;        // as watched_: of this step so far, N s
   std::vector<double> work_;         // of each local node, J
   double body_work_ = 0;
+  std::vector<double> tied_compliance_;  // as ties.nodes(), 1/kg
+  std::vector<Vec3> tied_impulse_;       // of each local node, N s; only with ties
+  // Of rigid bodies, only with ties: six sums each.
+  std::vector<ExactSum> shared_;
+  std::vector<double> shared_total_;
+  std::vector<BodyImpulse> shared_impulse_;
+  std::int64_t left_out_ = 0;
   std::unique_ptr<ContactFields> fields_;
 };
 

@@ -81,9 +81,12 @@ ContactParty* Mechanics::contact_party() {
     throw Error(ExitCode::usage, name() +
                                      ": contact needs all of its nodes in each step, and elements with longer steps of "
                                      "their own have none; use time_step.subcycling: 1");
-  if (!contact_)
-    contact_ = std::make_unique<ContactSide>(
-        ContactSide::Parts{*mesh_, options_, groups_, nodes_, conditions_, *rigid_, *ties_, loose_.get()});
+  if (contact_) return contact_.get();
+  contact_ = std::make_unique<ContactSide>(
+      ContactSide::Parts{*mesh_, options_, groups_, nodes_, conditions_, *rigid_, *ties_, loose_.get()});
+  if (contact_->left_out() > 0)
+    warnings_.push_back(fmt::format("{}: contact leaves out {} faces all of whose nodes are tied, or tied to", name(),
+                                    contact_->left_out()));
   return contact_.get();
 }
 
@@ -141,7 +144,7 @@ void Mechanics::kick(int step, double now, double dt) {
 void Mechanics::finish_kick(double now, double dt) {
   const ScopedTimer timer(*phases_.update);
   const double kick = kick_length(dt);
-  if (contact_ && !ties_->empty()) ties_->follow(nodes_);
+  if (contact_) contact_->end(dt);
   if (!loads_->empty()) loads_->book(nodes_, kick);
   if (!rigid_->empty()) rigid_->book(nodes_, kick);
   if (relaxation_) relaxation_->watch(nodes_, *loads_, kick, previous_dt_, dt, now);

@@ -375,6 +375,29 @@ NodalConditions::Holds NodalConditions::holds(LocalIndex node) const {
   return holds;
 }
 
+bool NodalConditions::stop(LocalIndex node, const NodalState& nodes, double dt, Vec3& change) {
+  const auto n = static_cast<std::size_t>(node);
+  if (standing_of_[n] < 0) return false;
+  const auto s = static_cast<std::size_t>(standing_of_[n]);
+  for (std::int32_t i = standing_[s].first_wall; i < standing_[s].first_wall + standing_[s].walls; ++i) {
+    const auto w = static_cast<std::size_t>(standing_walls_[static_cast<std::size_t>(i)]);
+    const Vec3& normal = walls_[w].normal;
+    const double missing =
+        (wall_distance_[w] - dot(normal, nodes.position()[n])) / dt - dot(normal, nodes.velocity()[n]);
+    if (!(missing > 0)) continue;
+    const Holds held = holds(node);
+    Vec3 free = normal;
+    for (int k = 0; k < held.count; ++k) free = free - dot(held.direction[k], normal) * held.direction[k];
+    const double size = norm(free);
+    if (held.count == 3 || size < 1e-6) continue;
+    const Vec3 direction = (1 / size) * free;
+    change = (missing / size) * direction;
+    stops_[s].direction[stops_[s].count++] = direction;
+    return true;
+  }
+  return false;
+}
+
 void NodalConditions::react(LocalIndex node, const Vec3& p, const Vec3& mean) {
   const Holds held = holds(node);
   for (int k = 0; k < held.count; ++k) {

@@ -50,6 +50,11 @@ class NodalConditions {
   void remember_holds(std::size_t size);
   /// Local, after `remember_holds`; of owned nodes.
   Holds holds(LocalIndex node) const;
+  /// Local. The change of velocity that the next wall asks of a node which impulses have turned against it since
+  /// `apply`; it then counts among those that hold the node. False if no wall does.
+  bool stop(LocalIndex node, const NodalState& nodes, double dt, Vec3& change);
+  /// Local. Books the work of a wall's reaction, J.
+  void add_wall_work(LocalIndex node, double work) { wall_work_[static_cast<std::size_t>(node)] += work; }
   /// Local. An impulse p (N s) has come to a node whose velocity, on the mean of before and after the kick, is `mean`
   /// (m/s): books the work of the reactions that take up its share along held directions.
   void react(LocalIndex node, const Vec3& p, const Vec3& mean);

@@ -67,7 +67,7 @@ void Ties::send_records(const Mesh& mesh, const std::vector<Record>& mine) {
     tied.push_back(record.node);
   }
   tied_ = RemoteNodes(mesh, tied, "tied nodes: forces");
-  force_.resize(tied.size());
+  force_.resize(tied.size()), vector_.resize(tied.size());
 }
 
 void Ties::refuse_chains(const Mesh& mesh, const std::vector<Record>& mine) const {
@@ -114,6 +114,20 @@ void Ties::gather(NodalState& nodes) const {
       nodes.force[static_cast<std::size_t>(share.to)].v[c] +=
           share.weight * force_[static_cast<std::size_t>(share.from)].v[c];
   for (const LocalIndex n : nodes_) nodes.force[static_cast<std::size_t>(n)] = {};
+}
+
+std::int32_t Ties::index_of(LocalIndex node) const {
+  const auto found = std::ranges::lower_bound(nodes_, node);
+  return found != nodes_.end() && *found == node ? static_cast<std::int32_t>(found - nodes_.begin()) : -1;
+}
+
+std::vector<double> Ties::compliance(std::span<const double> values) const {
+  std::vector<double> corner(corner_velocity_.size()), result(nodes_.size());
+  corners_.pull<double>(values, corner);
+  for (std::size_t i = 0; i < nodes_.size(); ++i)
+    for (std::size_t a = 0; a < max_side_nodes; ++a)
+      result[i] += weights_[i][a] * weights_[i][a] * corner[max_side_nodes * i + a];
+  return result;
 }
 
 void Ties::follow(NodalState& nodes) const {

@@ -33,6 +33,19 @@ class Ties {
   void gather(NodalState& nodes) const;
   void follow(NodalState& nodes) const;
 
+  /// Local. Which of nodes() an owned node is, or -1.
+  std::int32_t index_of(LocalIndex node) const;
+  /// Collective. Per tied node, sum w_a^2 u_a of a value u per node (of all local nodes; owned ones count): what a unit
+  /// force on it moves there, if u is the inverse mass.
+  std::vector<double> compliance(std::span<const double> values) const;
+  /// Collective. Hands vectors at tied nodes (of all local nodes; owned ones count) to the owned nodes of faces:
+  /// visit(node, share), in ascending order of the tied nodes.
+  template <typename Visit>
+  void share(std::span<const Vec3> vectors, Visit visit) const {
+    tied_.pull<Vec3>(vectors, vector_);
+    for (const Share& s : shares_) visit(s.to, s.weight * vector_[static_cast<std::size_t>(s.from)]);
+  }
+
   /// A node bound to a face.
   struct Record {
     GlobalId node = -1;
@@ -59,6 +72,7 @@ class Ties {
   std::vector<Share> shares_;                                // ascending by tied node
   mutable std::vector<Vec3> corner_velocity_;
   mutable std::vector<ForceRow> force_;
+  mutable std::vector<Vec3> vector_;
 };
 
 }  // namespace tenon

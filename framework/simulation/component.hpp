@@ -98,7 +98,7 @@ class Component {
   /// own forces, then places by the velocities, and forces there.
   virtual void begin_step(double) {}
   virtual void end_step(double dt) { advance(dt); }
-  /// Local. What contact sees of it; null if it cannot touch anything.
+  /// Collective. What contact sees of it; null if it cannot touch anything.
   virtual ContactParty* contact_party() { return nullptr; }
 
   /// Local. Every field that can be shown or given away, and every one that is accepted.

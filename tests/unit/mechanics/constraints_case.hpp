@@ -20,6 +20,7 @@ inline MeshData joined(const std::vector<Part>& parts) {
   GlobalId elements = 0;
   for (const Part& part : parts) {
     MeshData more = generate(part.shape);
+    const auto count = static_cast<GlobalId>(more.elements());
     const auto first = static_cast<GlobalId>(all.coordinates.size());
     all.coordinates.insert(all.coordinates.end(), more.coordinates.begin(), more.coordinates.end());
     for (BlockData& block : more.blocks) {
@@ -46,7 +47,7 @@ inline MeshData joined(const std::vector<Part>& parts) {
       set.name = part.name + "_" + set.name;
       all.side_sets.push_back(set);
     }
-    elements += static_cast<GlobalId>(more.elements());
+    elements += count;
   }
   for (std::size_t n = 0; n < all.coordinates.size(); ++n) all.node_labels.push_back(static_cast<std::int64_t>(n) + 1);
   std::int64_t label = 0;

@@ -15,11 +15,14 @@ MeshData bodies() {
                  {"b", box({2, 0, 0}, {3, 1, 1}, {2, 2, 3}, 0.2)},
                  {"c", box({4, 0, 0}, {5, 1, 1}, {2, 2, 2}, 0.2)},
                  {"d", box({6, 0, 0}, {7, 1, 1}, {1, 2, 2})},
-                 {"e", box({8, 0, 0}, {9, 1, 1}, {1, 1, 2})}});
+                 {"e", box({8, 0, 0}, {9, 1, 1}, {1, 1, 2})},
+                 {"f", box({9, 0, 0}, {10, 1, 1}, {1, 3, 3})},
+                 {"g", box({3, 0, 0}, {3.8, 1, 1}, {1, 3, 3})}});
 }
 
-/// Held, guided and falling nodes, free, hinged and driven rigid bodies, loads and damping.
-MechanicsOptions everything() {
+/// Held, guided and falling nodes, free, hinged and driven rigid bodies, loads and damping; and, if asked for, parts
+/// tied to a rigid body and to guided nodes.
+MechanicsOptions everything(bool tied = false) {
   MechanicsOptions o;
   o.initial_velocities = {{"", "", {1, 2, -3}, {0, -3, 0, 3, 0, 0, 0, 0, 0}, {}}};
   PrescribedMotion pulled = motion(Kind::velocity, {"b_x_min"});
@@ -42,6 +45,7 @@ MechanicsOptions everything() {
   driven.blocks = {"e"}, driven.label = "driven";
   driven.prescribed_velocity[1] = TimeFunction::constant(4);
   l.rigid_bodies = {free, hinged, driven};
+  if (tied) l.ties = {{{"f_x_min"}, {"e_x_max"}, 0.05, "tied 1"}, {{"g_x_min"}, {"b_x_max"}, 0.05, "tied 2"}};
   return o;
 }
 
@@ -66,10 +70,13 @@ class Pusher {
     for (int round = 0; round < 2; ++round) act(2 * step + round);
     body_.end_step(dt);
   }
-  double worst() const { return worst_; }  ///< |w p - dv| m over |p|
-  std::array<ExactSum, 3> given;           ///< N s on nodes without any hold
+  /// Greatest difference of a change of velocity from w p, m/s; means nothing with ties.
+  double worst() const { return worst_; }
+  /// What has gone into all nodes and bodies, N s.
+  Vec3 given() const { return {sum(0), sum(1), sum(2)}; }
 
  private:
+  double sum(std::size_t c) const { return body_.mesh().comm.sum(given_[c]); }
   void act(std::int64_t step) {
     std::vector<Mobility> mobility(watched_.size());
     party_.mobilities(watched_, mobility);
@@ -92,6 +99,11 @@ class Pusher {
         bodies[b].angular[c] = 30 * random_of(std::int64_t(b), step, std::int64_t(c) + 6);
       }
     party_.push(nodes, impulses, bodies);
+    for (std::size_t c = 0; c < 3; ++c) {
+      for (const Vec3& p : impulses) given_[c].add(p[c]);
+      for (const BodyImpulse& p : bodies)
+        if (body_.mesh().comm.rank() == 0) given_[c].add(p.linear[c]);
+    }
     check_nodes(nodes, impulses, before);
     check_bodies(rigid, bodies);
   }
@@ -123,6 +135,7 @@ class Pusher {
   ContactParty& party_;
   std::vector<LocalIndex> watched_;
   double worst_ = 0;
+  std::array<ExactSum, 3> given_;
 };
 
 void compare(Mechanics& a, Mechanics& b) {
@@ -131,8 +144,16 @@ void compare(Mechanics& a, Mechanics& b) {
   EXPECT_EQ(energy_rows(a), energy_rows(b));
 }
 
-std::unique_ptr<Mechanics> shared_body() {
-  return body(shared_mesh(bodies()), steel(), everything());
+std::unique_ptr<Mechanics> shared_body(bool tied = false) {
+  return body(shared_mesh(bodies()), steel(), everything(tied));
+}
+
+/// How far the nodes of a set are below z = 0, m.
+double below(const Mechanics& b, const std::string& set) {
+  double most = 0;
+  for (const LocalIndex n : b.mesh().find_node_set(set)->nodes)
+    if (b.mesh().owns_node(n)) most = std::max(most, -b.current_coordinates()[static_cast<std::size_t>(n)][2]);
+  return most;
 }
 
 TEST(ContactSide, BooksOfARandomlyPushedBodyClose) {
@@ -148,12 +169,48 @@ TEST(ContactSide, BooksOfARandomlyPushedBodyClose) {
   std::printf("ledger %.2g, response %.2g\n", worst, pusher.worst());
   EXPECT_LT(worst, 1e-13);
   EXPECT_LT(pusher.worst(), 1e-13);
+  EXPECT_LT(below(*b, "c_z_min"), 1e-14);  // the wall holds whatever pushes
   EXPECT_GT(std::abs(energy_rows(*b).at("contact_work")), 1);
 }
 
+TEST(ContactSide, BooksOfTiedPartsClose) {
+  const auto b = shared_body(true);
+  Pusher pusher(*b);
+  b->initialize();
+  Ledger ledger(*b);
+  for (int s = 0; s < 60; ++s) {
+    pusher.step(b->time_step(), s);
+    EXPECT_LT(ledger.error(), 1e-13);
+  }
+}
+
+// A free part tied to another, and one tied to a free rigid body: what is pushed in is what they have.
+TEST(ContactSide, ImpulsesOnTiedNodesKeepMomentum) {
+  MechanicsOptions o;
+  RigidBody rigid;
+  rigid.blocks = {"e"}, rigid.label = "free";
+  o.loads.rigid_bodies = {rigid};
+  o.loads.ties = everything(true).loads.ties;
+  const auto b = body(shared_mesh(bodies()), steel(), o);
+  Pusher pusher(*b);
+  b->initialize();
+  for (int s = 0; s < 20; ++s) pusher.step(b->time_step(), s);
+  const Vec3 given = pusher.given();
+  for (std::size_t c = 0; c < 3; ++c) {
+    ExactSum momentum;
+    if (communicator().rank() == 0)
+      momentum.add(b->rigid_bodies().inertia(0).mass * b->rigid_bodies().state(0).velocity[c]);
+    for (const LocalIndex n : b->mesh().owned_nodes) {
+      const auto i = static_cast<std::size_t>(n);
+      momentum.add(b->nodal_mass()[i] * b->contact_party()->contact_velocities()[i][c]);
+    }
+    EXPECT_NEAR(communicator().sum(momentum), given[c], 1e-11 * norm(given)) << c;
+  }
+}
+
 TEST(ContactSide, SameBitsOnAnyNumberOfRanks) {
-  const auto shared = shared_body();
-  const auto whole = body(whole_mesh(bodies()), steel(), everything());
+  const auto shared = shared_body(true);
+  const auto whole = body(whole_mesh(bodies()), steel(), everything(true));
   Pusher a(*shared), b(*whole);
   shared->initialize(), whole->initialize();
   for (int s = 0; s < 40; ++s) {
@@ -240,7 +297,7 @@ TEST(ContactSide, FacesAreTheSkinOnAnyNumberOfRanks) {
   const std::vector<GlobalFace> a = all_faces(*shared), b = all_faces(*whole);
   EXPECT_EQ(a, b);
   if (communicator().rank() != 0) return;
-  EXPECT_EQ(a.size(), std::size_t(2 * (2 * 2 + 2 * 8) + 2 * (4 + 12) + 2 * 12 + 2 * (4 + 4) + 10));
+  EXPECT_EQ(a.size(), std::size_t(2 * (2 * 2 + 2 * 8) + 2 * (4 + 12) + 2 * 12 + 2 * (4 + 4) + 10 + 30 + 30));
   std::set<GlobalId> ids;
   for (const GlobalFace& f : a) ids.insert(f[0]);
   EXPECT_EQ(ids.size(), a.size());
