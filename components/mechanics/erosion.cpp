@@ -17,6 +17,12 @@ void for_corners(const ElementGroups& groups, Visit visit) {
   });
 }
 
+/// m^3; the present thickness of a dead shell means nothing.
+double undeformed_volume(const ElementGroup& group, LocalIndex e, std::span<const Vec3> coordinates) {
+  if (topology(group.elements().kind).dimension == 2) return value_of(group.mass, e) / group.material().density;
+  return group.volume(e, coordinates);
+}
+
 }  // namespace
 
 // An element that dies at the start of the next step still holds its nodes; in contact they are loose already.
@@ -32,7 +38,7 @@ void LooseNodes::particles(const ElementGroups& groups, const NodalState& nodes,
   for_corners(groups, [&](std::size_t n, const ElementGroup& group, LocalIndex e) {
     if (holds[n] != 0) return;
     const double share = 1 / static_cast<double>(group.elements().nodes(e).size());
-    volume[n] += share * group.volume(e, mesh_.coordinates);
+    volume[n] += share * undeformed_volume(group, e, mesh_.coordinates);
     if (surface[n] < 0) surface[n] = static_cast<std::int32_t>(group.block());
   });
   for (const LocalIndex node : mesh_.owned_nodes) {

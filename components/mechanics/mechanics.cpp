@@ -30,6 +30,10 @@ void Mechanics::initialize() {
   if (!loaded_) set_velocities();
   forget_steps();
   compute_forces(0, 0);
+  if (!loaded_ && mesh_->comm.any(local_deaths() > 0))
+    throw Error(ExitCode::usage, fmt::format("{}: erosion would take out elements of the undeformed body; expected a "
+                                             "minimum_step below the stable step of each (given {:.4g} s)",
+                                             name(), options_.erosion.minimum_step.value_or(0)));
   choose_step();
   if (options_.time_step.subcycling > 1 && !subcycling_) choose_levels();
   if (subcycling_) report_levels();

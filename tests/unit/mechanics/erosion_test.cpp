@@ -4,6 +4,7 @@
 #include <set>
 
 #include "constraints_case.hpp"
+#include "shell_case.hpp"
 #include "solid_meshes.hpp"
 
 namespace tenon::testing {
@@ -18,38 +19,46 @@ MaterialDescription soft_metal() {
   return m;
 }
 
-/// A column that hits a wall, so that the elements at its foot get flat and are taken out.
-MeshData column(ElementKind kind) {
-  return solid_box(box({0, 0, 0}, {2, 2, 6}, {2, 2, 5}, 0.1), kind);
-}
+/// A body that hits a wall, so that the elements at its foot get flat and are taken out.
+struct Case {
+  MeshData data;
+  bool shells = false;
 
-MechanicsOptions crushed(Loose loose) {
-  MechanicsOptions o;
-  o.erosion.loose_nodes = loose;
-  o.viscosity = {0.06, 1.2};
-  o.initial_velocities = {{"", "", {30, 0, -250}, {}, {}}};
-  o.walls.push_back({{0, 0, 0}, {0, 0, 1}, TimeFunction::constant(0), {}, "wall"});
-  return o;
-}
-
-/// The step below which elements go: a share of the first one.
-double first_step(ElementKind kind) {
-  const auto b = body(shared_mesh(column(kind)), soft_metal(), crushed(Loose::keep));
-  b->initialize();
-  return b->time_step();
-}
-
-std::unique_ptr<Mechanics> crushed_body(std::shared_ptr<const Mesh> mesh, double least, Loose loose) {
-  MechanicsOptions o = crushed(loose);
-  o.erosion.minimum_step = least;
-  auto b = body(std::move(mesh), soft_metal(), o);
-  b->contact_party();
-  return b;
-}
+  static Case solid(ElementKind kind) { return {solid_box(box({0, 0, 0}, {2, 2, 6}, {2, 2, 5}, 0.1), kind)}; }
+  static Case shell() {
+    return {shell_grid({3, 6, ShellGrid::Cells::mixed},
+                       [](double r, double t) {
+                         return Vec3{2 * r, 0, 6 * t};
+                       }),
+            true};
+  }
+  std::shared_ptr<const Mesh> shared() const {
+    MeshData copy = data;
+    return shared_mesh(std::move(copy));
+  }
+  /// `least`: the step below which elements go, s.
+  std::unique_ptr<Mechanics> make(std::shared_ptr<const Mesh> mesh, double least, Loose loose) const {
+    MechanicsOptions o;
+    o.erosion.loose_nodes = loose;
+    o.erosion.minimum_step = least;
+    o.viscosity = {0.06, 1.2};
+    o.initial_velocities = {{"", "", {30, 0, -250}, {}, {}}};
+    o.walls.push_back({{0, 0, 0}, {0, 0, 1}, TimeFunction::constant(0), {}, "wall"});
+    auto b =
+        shells ? shell_body(std::move(mesh), soft_metal(), section(0.2), o) : body(std::move(mesh), soft_metal(), o);
+    b->contact_party();
+    return b;
+  }
+  double least() const {
+    const auto b = make(shared(), 1e-12, Loose::keep);
+    b->initialize();
+    return 0.5 * b->time_step();
+  }
+};
 
 struct Face {
   GlobalId id;
-  double depth;
+  double depth, thickness;
   auto operator<=>(const Face&) const = default;
 };
 struct Ball {
@@ -57,14 +66,14 @@ struct Ball {
   double radius;
   auto operator<=>(const Ball&) const = default;
 };
-struct Surface {
+struct Skin {
   std::vector<Face> faces;
   std::vector<Ball> balls;
-  bool operator==(const Surface&) const = default;
+  bool operator==(const Skin&) const = default;
 };
 
 /// What contact sees, of all ranks, on rank 0.
-Surface surface_of(Mechanics& b) {
+Skin skin_of(Mechanics& b) {
   const Mesh& mesh = b.mesh();
   std::vector<ContactFace> faces;
   std::vector<ContactParticle> balls;
@@ -72,10 +81,10 @@ Surface surface_of(Mechanics& b) {
   b.contact_party()->contact_particles(balls);
   std::vector<Face> mine;
   std::vector<Ball> mine_too;
-  for (const ContactFace& f : faces) mine.push_back({f.id, f.depth});
+  for (const ContactFace& f : faces) mine.push_back({f.id, f.depth, f.thickness});
   for (const ContactParticle& p : balls)
     mine_too.push_back({mesh.node_ids[static_cast<std::size_t>(p.node)], p.radius});
-  Surface all{mesh.comm.gather<Face>(mine), mesh.comm.gather<Ball>(mine_too)};
+  Skin all{mesh.comm.gather<Face>(mine), mesh.comm.gather<Ball>(mine_too)};
   std::ranges::sort(all.faces), std::ranges::sort(all.balls);
   return all;
 }
@@ -92,7 +101,7 @@ std::pair<std::set<GlobalId>, std::set<GlobalId>> brute_force(Mechanics& b) {
       const Topology& kind = topology(block.kind);
       if (alive[at] == 0) continue;
       for (const LocalIndex n : block.nodes(e)) nodes.erase(n);
-      for (std::size_t s = 0; s < static_cast<std::size_t>(kind.sides); ++s) {
+      for (std::size_t s = 0; s < static_cast<std::size_t>(kind.dimension == 2 ? 1 : kind.sides); ++s) {
         std::set<LocalIndex> key;
         for (std::size_t a = 0; a < static_cast<std::size_t>(kind.side_nodes[s]); ++a)
           key.insert(block.nodes(e)[static_cast<std::size_t>(kind.side[s][a])]);
@@ -104,7 +113,7 @@ std::pair<std::set<GlobalId>, std::set<GlobalId>> brute_force(Mechanics& b) {
   return {ids, nodes};
 }
 
-void expect_surface(Mechanics& whole, const Surface& seen, bool balls) {
+void expect_skin(Mechanics& whole, const Skin& seen, bool balls) {
   if (communicator().rank() != 0) return;
   const auto [ids, nodes] = brute_force(whole);
   std::set<GlobalId> faces, particles;
@@ -124,13 +133,10 @@ double failed(Mechanics& b) {
   return static_cast<double>(b.mesh().comm.sum(static_cast<std::int64_t>(sum)));
 }
 
-/// The last bodies: on all ranks, and all on one.
-void check_collapse(ElementKind kind, Loose loose) {
-  MeshData data = column(kind);
-  MeshData copy = data;
-  const double least = 0.5 * first_step(kind);
-  const auto shared = crushed_body(shared_mesh(std::move(copy)), least, loose);
-  const auto whole = crushed_body(whole_mesh(data), least, loose);
+void check_collapse(const char* name, const Case& c, Loose loose) {
+  const double least = c.least();
+  const auto shared = c.make(c.shared(), least, loose);
+  const auto whole = c.make(whole_mesh(c.data), least, loose);
   shared->initialize(), whole->initialize();
   Ledger ledger(*shared);
   double worst = 0, dead = 0;
@@ -146,38 +152,43 @@ void check_collapse(ElementKind kind, Loose loose) {
     const double now = failed(*shared);
     if (now != dead) {
       EXPECT_NE(version, shared->contact_party()->surface_version()) << "step " << s;
-      const Surface seen = surface_of(*shared);
-      EXPECT_TRUE(seen == surface_of(*whole)) << "step " << s;
-      if (++waves < 5) expect_surface(*whole, seen, loose == Loose::keep);
+      const Skin seen = skin_of(*shared);
+      EXPECT_TRUE(seen == skin_of(*whole)) << "step " << s;
+      if (++waves < 5) expect_skin(*whole, seen, loose == Loose::keep);
     }
     dead = now;
   }
-  std::printf("%s: %g elements gone in %d steps, ledger %.2g\n", topology(kind).name.data(), dead, waves, worst);
+  std::printf("%s: %g elements gone in %d steps, ledger %.2g\n", name, dead, waves, worst);
   EXPECT_GT(dead, 2);
   EXPECT_LT(worst, 1e-12);
-  for (const char* name : {"displacement", "velocity", "stress", "element_status"})
-    expect_same_bits(in_global_order(*shared, name), in_global_order(*whole, name), name);
+  for (const char* field : {"displacement", "velocity", "stress", "element_status"})
+    expect_same_bits(in_global_order(*shared, field), in_global_order(*whole, field), field);
   EXPECT_EQ(energy_rows(*shared), energy_rows(*whole));
 }
 
 TEST(Erosion, HexahedraWhoseStepCollapses) {
-  check_collapse(ElementKind::hex8, Loose::keep);
-  check_collapse(ElementKind::hex8, Loose::remove);
+  check_collapse("hex8", Case::solid(ElementKind::hex8), Loose::keep);
+  check_collapse("hex8", Case::solid(ElementKind::hex8), Loose::remove);
 }
 
 TEST(Erosion, TetrahedraWhoseStepCollapses) {
-  check_collapse(ElementKind::tet4, Loose::keep);
-  check_collapse(ElementKind::tet4, Loose::remove);
+  check_collapse("tet4", Case::solid(ElementKind::tet4), Loose::keep);
+  check_collapse("tet4", Case::solid(ElementKind::tet4), Loose::remove);
 }
 
 TEST(Erosion, WedgesWhoseStepCollapses) {
-  check_collapse(ElementKind::wedge6, Loose::remove);
+  check_collapse("wedge6", Case::solid(ElementKind::wedge6), Loose::remove);
 }
 
-void check_restart(ElementKind kind, Loose loose) {
+TEST(Erosion, ShellsWhoseStepCollapses) {
+  check_collapse("shells", Case::shell(), Loose::keep);
+  check_collapse("shells", Case::shell(), Loose::remove);
+}
+
+void check_restart(const Case& c, Loose loose) {
   const std::string file = "mechanics_erosion_" + std::to_string(communicator().size()) + ".h5";
-  const double least = 0.5 * first_step(kind);
-  const auto whole = crushed_body(shared_mesh(column(kind)), least, loose);
+  const double least = c.least();
+  const auto whole = c.make(c.shared(), least, loose);
   whole->initialize();
   // Right after a step in which an element was doomed: that is what a restart has to find again.
   int s = 0;
@@ -191,7 +202,7 @@ void check_restart(ElementKind kind, Loose loose) {
     whole->save(writer);
     writer.finish();
   }
-  const auto continued = crushed_body(shared_mesh(column(kind)), least, loose);
+  const auto continued = c.make(c.shared(), least, loose);
   {
     const CheckpointReader reader(communicator(), file);
     continued->set_clock(whole->time());
@@ -207,14 +218,21 @@ void check_restart(ElementKind kind, Loose loose) {
   for (const char* name : {"displacement", "velocity", "stress", "element_status"})
     expect_same_bits(in_global_order(*continued, name), in_global_order(*whole, name), name);
   EXPECT_EQ(energy_rows(*continued), energy_rows(*whole));
-  EXPECT_TRUE(surface_of(*continued) == surface_of(*whole));
+  EXPECT_TRUE(skin_of(*continued) == skin_of(*whole));
   communicator().barrier();
   if (communicator().rank() == 0) std::filesystem::remove(file);
 }
 
 TEST(Erosion, ContinuesBitwiseFromACheckpoint) {
-  check_restart(ElementKind::hex8, Loose::keep);
-  check_restart(ElementKind::tet4, Loose::remove);
+  check_restart(Case::solid(ElementKind::hex8), Loose::keep);
+  check_restart(Case::solid(ElementKind::tet4), Loose::remove);
+  check_restart(Case::shell(), Loose::remove);
+}
+
+TEST(Erosion, AMinimumAboveTheFirstStepIsRefused) {
+  const Case c = Case::solid(ElementKind::hex8);
+  const auto b = c.make(c.shared(), 10 * c.least(), Loose::keep);
+  EXPECT_THROW(b->initialize(), Error);
 }
 
 // A cube that is pressed through itself.
