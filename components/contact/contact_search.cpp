@@ -32,11 +32,12 @@ void Contact::prepare(double time, double dt) {
 void Contact::search(double time, double dt) {
   renew(time, dt);
   ++searches_;
-  if (set_.any() && widening_ > 1) {  // something is near after all: wide skins would find too much
+  const bool something = set_.any() || comm_.any(set_.turned_away() > 0);
+  if (something && widening_ > 1) {  // something is near after all: wide skins would find too much
     widening_ = 1, narrow_ = searches_before_widening;
     search_.widen(1);
     renew(time, dt);
-  } else if (!set_.any() && narrow_-- <= 0) {
+  } else if (!something && narrow_-- <= 0) {
     widening_ = std::min(2 * widening_, greatest_widening);
     search_.widen(widening_);
   }
@@ -57,6 +58,7 @@ void Contact::renew(double time, double dt) {
   restored_.clear();
   for (const double energy : set_.lost()) dissipated_.add(energy);
   limit_clearances();
+  make_groups();
   watch_nodes();
 }
 

@@ -250,7 +250,10 @@ void Enforcement::move(std::span<const Constraint> constraints, std::span<const 
 Enforcement::Change Enforcement::iterate(std::span<Constraint> constraints, std::span<const Body> bodies, double beta) {
   Change found;
   for (Constraint& q : constraints) {
-    if (q.inverse == 0) continue;
+    if (q.inverse == 0) {  // nothing can move
+      q.impulse = q.extrapolated = {};
+      continue;
+    }
     Vec3 plain{};
     for (std::size_t i = 0; i < static_cast<std::size_t>(q.nodes); ++i)
       plain = plain + q.c[i] * velocity_[static_cast<std::size_t>(q.node[i])];

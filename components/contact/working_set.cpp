@@ -45,6 +45,14 @@ bool faces_against(const Vec3& of_node, const Vec3& of_face) {
   return of_node == Vec3{} || dot(of_node, of_face) < -0.2;
 }
 
+/// The edge of a knife or the end of a needle: its faces turn away from whatever it meets.
+bool is_pointed(std::span<const Vec3> around) {
+  for (const Vec3& a : around)
+    for (const Vec3& b : around)
+      if (dot(a, b) < -0.5) return true;
+  return false;
+}
+
 NodeRef reference(const Corner& corner) {
   return {corner.id, corner.home, -1};
 }
@@ -125,6 +133,7 @@ void WorkingSet::gather_records(const CandidateSearch& search, const PairFilter&
 
 // The rank of the node asks the rank of the face what it is.
 void WorkingSet::add_node_faces(const CandidateSearch& search) {
+  turned_away_ = 0;
   std::vector<int> to;
   for (const BoxPair& pair : search.node_faces()) to.push_back(pair.first.rank);
   const ExchangePlan plan = ExchangePlan::to_ranks(comm_, to, "contact candidates");
@@ -163,8 +172,11 @@ void WorkingSet::add_node_faces(const CandidateSearch& search) {
     if (shares_node(pair, 1) || std::ranges::find(face.behind, node.id) != face.behind.end()) continue;
     const std::span<const Vec3> around =
         surfaces_.normals_of(search.normals_around(), static_cast<std::size_t>(found[i].first.index));
-    if (!pair.two_sided && std::ranges::none_of(around, [&](const Vec3& n) { return faces_against(n, face.normal); }))
+    if (!pair.two_sided && std::ranges::none_of(around, [&](const Vec3& n) { return faces_against(n, face.normal); }) &&
+        !is_pointed(around)) {
+      ++turned_away_;
       continue;
+    }
     pair.shells = pair.two_sided && node.radius > 0 && node.party == face.party;
     pair.clearance = node.radius + face.radius, pair.depth = face.depth, pair.margin = near_share * node.size;
     records_.push_back(pair);
