@@ -141,6 +141,7 @@ void CandidateSearch::find_sharp_edges() {
     const SurfaceEdge& edge = edges[e];
     const std::span<const Vec3> x = surfaces_.parties()[static_cast<std::size_t>(edge.party)]->contact_positions();
     Vec3 outward{};
+    if (!edge.two_sided && edge.faces != 2) continue;  // beside what is tied, or where blocks meet at an edge
     if (edge.faces == 2) {
       const FacePlane& a = edge_planes_[static_cast<std::size_t>(edge.face_slots[0])];
       const FacePlane& b = edge_planes_[static_cast<std::size_t>(edge.face_slots[1])];

@@ -139,6 +139,7 @@ class Contact final : public Interaction {
 
   std::map<GlobalId, double> kept_;  // m: overlap that nodes of this rank were given
 
+  double used_before_ = 0;
   double used_ = 0;                 // of the skins, after the last step
   std::vector<Vec3> rigid_sought_;  // shifts of rigid surfaces when sought, m
   double rigid_skin_ = 0;           // m, which they may move beside the common motion
@@ -170,6 +171,7 @@ class Contact final : public Interaction {
   double way_ = 0, fastest_ = 0;           // m, twice the longest way of a node since the search; m/s
   std::vector<Vec3> predicted_;            // velocities by all other forces, m/s
   std::vector<char> moved_;                // nodes of the set, by contact
+  bool remembers_ = false;                 // some pair of the node in hand has a memory to hand over
   bool settling_ = false;                  // before the first step: everything stands
   bool again_ = false;                     // ways are looked at once more
   bool any_constraint_ = false;

@@ -151,6 +151,9 @@ void Contact::touch_faces(std::size_t begin, std::size_t end, double dt) {
   const auto n = static_cast<std::size_t>(pairs[begin].node[0]);
   const std::size_t first_constraint = constraints_.size();
   touches_.clear(), touch_nodes_.clear(), touch_ids_.clear(), touch_pairs_.clear();
+  remembers_ =
+      std::any_of(pairs.begin() + static_cast<std::ptrdiff_t>(begin), pairs.begin() + static_cast<std::ptrdiff_t>(end),
+                  [](const WorkingPair& pair) { return !pair.memory.empty(); });
   for (std::size_t q = begin; q < end; ++q) {
     const WorkingPair& pair = pairs[q];
     if (wake_[q] > 0) continue;
@@ -183,6 +186,7 @@ void Contact::touch_faces(std::size_t begin, std::size_t end, double dt) {
 
 void Contact::touch_edges(std::size_t q, double dt) {
   const WorkingPair& pair = set_.pairs()[q];
+  remembers_ = !pair.memory.empty();
   std::array<EdgeShape, 4> edge;  // first at start and end, second likewise
   for (std::size_t k = 0; k < 4; ++k) {
     const auto n = static_cast<std::size_t>(pair.node[k]);
@@ -198,6 +202,7 @@ void Contact::touch_edges(std::size_t q, double dt) {
 
 void Contact::touch_rigid(std::size_t q, double time, double dt) {
   const WorkingPair& pair = set_.pairs()[q];
+  remembers_ = !pair.memory.empty();
   const auto n = static_cast<std::size_t>(pair.node[0]);
   const MovingSurface& surface = rigid_[static_cast<std::size_t>(pair.key.ids[1])];
   RigidTouch touch;
@@ -218,7 +223,7 @@ void Contact::add_constraint(std::size_t q, const Touch* face, const EdgeTouch* 
   const WorkingPair& pair = set_.pairs()[q];
   const double gap = face ? face->gap : edges ? edges->gap : rigid->gap;
   const double end_gap = face ? face->end_gap : edges ? edges->end_gap : rigid->end_gap;
-  if (again_ ? end_gap > -negligible * pair.margin : end_gap > 0 && pair.memory.empty()) return;  // near, no more
+  if (again_ ? end_gap > -negligible * pair.margin : end_gap > 0 && !remembers_) return;  // near, no more
   Constraint c;
   c.pair = static_cast<std::int32_t>(q), c.nodes = pair.nodes, c.node = pair.node;
   c.gap = gap;

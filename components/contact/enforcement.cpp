@@ -285,7 +285,11 @@ Enforcement::Change Enforcement::iterate(std::span<Constraint> constraints, std:
 
 Enforcement::Report Enforcement::solve(std::span<Constraint> constraints, std::span<const NodeState> nodes,
                                        std::vector<Body>& bodies) {
-  has_bodies_ = !bodies.empty();
+  has_bodies_ = !bodies.empty() && comm_.any(std::ranges::any_of(constraints, [&](const Constraint& q) {
+    return q.body >= 0 || std::any_of(q.node.begin(), q.node.begin() + q.nodes, [&](LocalIndex n) {
+             return nodes[static_cast<std::size_t>(n)].mobility.body >= 0;
+           });
+  }));
   velocity_.resize(nodes.size()), sum_.resize(nodes.size());
   connect(constraints);
   precondition(constraints, nodes, bodies, {});
