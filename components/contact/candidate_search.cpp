@@ -13,6 +13,9 @@ namespace {
 // Of the least height of a node's faces: a fifth costs few candidates beyond the touching ones, and a body that
 // deforms slowly keeps its candidates for tens of steps.
 constexpr double relative_skin = 0.2;
+// What moves fast, an impactor, gets skins for so many steps, as long as they stay below half of that height: wider
+// ones would find all the neighbours on the node's own surface.
+constexpr double steps_ahead = 30, greatest_relative_skin = 0.5;
 // A search must be right for its own step, and for a sudden kick in it.
 constexpr double step_margin = 2;
 // While nothing at all is near, skins grow up to so many times.
@@ -95,7 +98,9 @@ void CandidateSearch::choose_skins(double dt) {
   for (std::size_t c = 0; c < 3; ++c) common_[c] = count > 0 ? total[c] / static_cast<double>(count) : 0;
   skin_.resize(nodes.size()), inverse_square_.resize(nodes.size());
   for (std::size_t n = 0; n < nodes.size(); ++n) {
-    skin_[n] = std::max(widening_ * relative_skin * nodes[n].size, step_margin * dt * norm(v[n] - common_));
+    const double way = dt * norm(v[n] - common_), size = nodes[n].size;
+    const double share = std::min(std::max(relative_skin * size, steps_ahead * way), greatest_relative_skin * size);
+    skin_[n] = std::max(widening_ * share, step_margin * way);
     inverse_square_[n] = 1 / (skin_[n] * skin_[n]);
   }
   surfaces_.at_corners<double>(skin_, corner_skin_);

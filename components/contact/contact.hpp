@@ -63,6 +63,8 @@ class Contact final : public Interaction {
   std::int64_t enforcement_work() const { return enforcement_work_; }
   std::int64_t searches() const { return searches_; }
   std::int64_t steps() const { return steps_; }
+  /// Of enforcement, since the start.
+  std::int64_t iterations() const { return iterations_total_; }
 
  private:
   using Constraint = contact::Constraint;

@@ -105,7 +105,11 @@ class WorkingSet {
 
  private:
   void gather_records(const CandidateSearch& search, const PairFilter& filter);
+  struct FaceRecord;
+  FaceRecord record_of(const SurfaceFace& face, const Vec3& normal) const;
+  bool may_press(const CandidateSearch& search, LocalIndex node, const Vec3& normal, bool two_sided) const;
   void add_node_faces(const CandidateSearch& search);
+  void add_pair(const ItemHandle& home, const FaceRecord& face);
   void add_edges(const CandidateSearch& search);
   void collect_work();
   void remember(std::span<const std::pair<PairKey, PairMemory>> restored);
