@@ -23,7 +23,7 @@ struct Place {
 /// The wall's course by its length s: straight, then bellows of flanks across (six thicknesses long) and half circles.
 class Course {
  public:
-  explicit Course(double thickness) : bend_(1.5 * thickness), flank_(6 * thickness) {
+  explicit Course(double thickness) : bend_(1.25 * thickness), flank_(6 * thickness) {
     folds_ = std::max(1, static_cast<int>(std::lround(folded / length_of_fold())));
   }
   double length() const { return straight + folds_ * length_of_fold(); }
