@@ -13,6 +13,9 @@ namespace {
 // Of the least height of a node's faces: a fifth costs few candidates beyond the touching ones, and a body that
 // deforms slowly keeps its candidates for tens of steps.
 constexpr double relative_skin = 0.2;
+// What moves fast, an impactor, gets skins for so many steps, as long as they stay below half of that height: wider
+// ones would find all the neighbours on the node's own surface.
+constexpr double steps_ahead = 30, greatest_relative_skin = 0.5;
 // A search must be right for its own step, and for a sudden kick in it.
 constexpr double step_margin = 2;
 // While nothing at all is near, skins grow up to so many times.
@@ -51,17 +54,16 @@ Vec3 CandidateSearch::velocity(const SurfaceNode& node) const {
 double CandidateSearch::used(double dt) const {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   if (!sought_) return infinity;
-  const std::vector<SurfaceNode>& nodes = surfaces_.nodes();
   double greatest = 0;
   bool lost = false;
   const Vec3 common = (since_ + dt) * common_;
-  std::size_t n = 0;
+  auto next = sought_nodes_.begin();
   for (std::size_t p = 0; p < surfaces_.parties().size(); ++p) {
     const std::span<const Vec3> x = surfaces_.parties()[p]->contact_positions();
     const std::span<const Vec3> v = surfaces_.parties()[p]->contact_velocities();
-    for (; n < nodes.size() && nodes[n].party == static_cast<std::int32_t>(p); ++n) {
-      const auto i = static_cast<std::size_t>(nodes[n].node);
-      const double share = squared((x[i] - place_[n]) + (dt * v[i] - common)) * inverse_square_[n];
+    for (; next != sought_nodes_.end() && next->party == static_cast<std::int32_t>(p); ++next) {
+      const auto i = static_cast<std::size_t>(next->node);
+      const double share = squared((x[i] - next->place) + (dt * v[i] - common)) * next->inverse_square;
       greatest = std::max(greatest, share);
       lost = lost || !(share < infinity);  // what is not a number has left its skin, too
     }
@@ -84,19 +86,22 @@ void CandidateSearch::choose_skins(double dt) {
   const std::vector<SurfaceNode>& nodes = surfaces_.nodes();
   std::array<ExactSum, 3> sums;
   std::vector<Vec3> v(nodes.size());
-  place_.resize(nodes.size());
+  sought_nodes_.resize(nodes.size());
   for (std::size_t n = 0; n < nodes.size(); ++n) {
-    place_[n] = place(nodes[n]), v[n] = velocity(nodes[n]);
+    sought_nodes_[n].place = place(nodes[n]), v[n] = velocity(nodes[n]);
     for (std::size_t c = 0; c < 3; ++c) sums[c].add(v[n][c]);
   }
   std::array<double, 3> total{};
   comm_.sum(sums, total);
   const std::int64_t count = comm_.sum(static_cast<std::int64_t>(nodes.size()));
   for (std::size_t c = 0; c < 3; ++c) common_[c] = count > 0 ? total[c] / static_cast<double>(count) : 0;
-  skin_.resize(nodes.size()), inverse_square_.resize(nodes.size());
+  skin_.resize(nodes.size());
   for (std::size_t n = 0; n < nodes.size(); ++n) {
-    skin_[n] = std::max(widening_ * relative_skin * nodes[n].size, step_margin * dt * norm(v[n] - common_));
-    inverse_square_[n] = 1 / (skin_[n] * skin_[n]);
+    const double way = dt * norm(v[n] - common_), size = nodes[n].size;
+    const double share = std::min(std::max(relative_skin * size, steps_ahead * way), greatest_relative_skin * size);
+    skin_[n] = std::max(widening_ * share, step_margin * way);
+    sought_nodes_[n].inverse_square = 1 / (skin_[n] * skin_[n]);
+    sought_nodes_[n].node = nodes[n].node, sought_nodes_[n].party = nodes[n].party;
   }
   surfaces_.at_corners<double>(skin_, corner_skin_);
   surfaces_.at_far_ends<double>(skin_, far_skin_);
@@ -107,7 +112,7 @@ void CandidateSearch::make_boxes() {
   const std::vector<SurfaceFace>& faces = surfaces_.faces();
   node_boxes_.assign(nodes.size(), Box{});
   for (std::size_t n = 0; n < nodes.size(); ++n) {
-    node_boxes_[n].add(place_[n]);
+    node_boxes_[n].add(sought_nodes_[n].place);
     node_boxes_[n].inflate(skin_[n] + nodes[n].radius);
   }
   face_boxes_.assign(faces.size(), Box{});
@@ -141,6 +146,7 @@ void CandidateSearch::find_sharp_edges() {
     const SurfaceEdge& edge = edges[e];
     const std::span<const Vec3> x = surfaces_.parties()[static_cast<std::size_t>(edge.party)]->contact_positions();
     Vec3 outward{};
+    if (!edge.two_sided && edge.faces != 2) continue;  // beside what is tied, or where blocks meet at an edge
     if (edge.faces == 2) {
       const FacePlane& a = edge_planes_[static_cast<std::size_t>(edge.face_slots[0])];
       const FacePlane& b = edge_planes_[static_cast<std::size_t>(edge.face_slots[1])];
@@ -160,12 +166,12 @@ void CandidateSearch::find_sharp_edges() {
 }
 
 std::int64_t CandidateSearch::memory() const {
-  return static_cast<std::int64_t>(
-      (node_boxes_.capacity() + face_boxes_.capacity() + edge_boxes_.capacity()) * sizeof(Box) +
-      (place_.capacity() + outward_.capacity()) * sizeof(Vec3) +
-      (planes_.capacity() + edge_planes_.capacity()) * sizeof(FacePlane) +
-      (skin_.capacity() + inverse_square_.capacity() + corner_skin_.capacity()) * sizeof(double) +
-      (node_faces_.capacity() + edge_edges_.capacity()) * sizeof(BoxPair));
+  return static_cast<std::int64_t>((node_boxes_.capacity() + face_boxes_.capacity() + edge_boxes_.capacity()) *
+                                       sizeof(Box) +
+                                   sought_nodes_.capacity() * sizeof(SoughtNode) + outward_.capacity() * sizeof(Vec3) +
+                                   (planes_.capacity() + edge_planes_.capacity()) * sizeof(FacePlane) +
+                                   (skin_.capacity() + corner_skin_.capacity()) * sizeof(double) +
+                                   (node_faces_.capacity() + edge_edges_.capacity()) * sizeof(BoxPair));
 }
 
 }  // namespace tenon::contact

@@ -68,11 +68,18 @@ class CandidateSearch {
   };
 
   bool sought_ = false;
-  double widening_ = 1;      // of skins, while nothing is near
-  Vec3 common_{};            // velocity that all share, m/s
-  double since_ = 0;         // time since the search, s
-  std::vector<Vec3> place_;  // of nodes, when sought
-  std::vector<double> skin_, corner_skin_, far_skin_, inverse_square_;
+  double widening_ = 1;  // of skins, while nothing is near
+  Vec3 common_{};        // velocity that all share, m/s
+  double since_ = 0;     // time since the search, s
+  /// What the check of a step reads of a node, in one place.
+  struct SoughtNode {
+    Vec3 place;             // when sought, m
+    double inverse_square;  // of the skin, 1/m^2
+    LocalIndex node;
+    std::int32_t party;
+  };
+  std::vector<SoughtNode> sought_nodes_;
+  std::vector<double> skin_, corner_skin_, far_skin_;
   std::vector<Vec3> face_normal_, around_;
   std::vector<FacePlane> planes_, edge_planes_;
   std::vector<Box> node_boxes_, face_boxes_, edge_boxes_;

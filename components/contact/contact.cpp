@@ -28,10 +28,11 @@ void Contact::act(double time, double dt) {
       book(dt, kick);
       send_back();
     }
-    if (any_constraint_ || fields_filled_) fill_fields(parties_.front()->contact_kick());
+    way_ += 2 * dt * std::max(fastest_, any_constraint_ ? fastest(enforcement_.velocities(), time, dt) : 0.0);
+    if (any_constraint_ || !filled_.empty()) fill_fields(parties_.front()->contact_kick());
   } else {
     any_constraint_ = false;
-    if (fields_filled_) clear_fields();
+    if (!filled_.empty()) fill_fields(1);
   }
   if (!any_constraint_) {
     ++idle_steps_;
@@ -87,6 +88,8 @@ void Contact::gather(double time, double dt) {
   state_.resize(static_cast<std::size_t>(set_.nodes()));
   set_.from_home().forward<NodeState>(home_state_, state_);
   end_.resize(state_.size());
+  predicted_.resize(state_.size());
+  for (std::size_t n = 0; n < state_.size(); ++n) predicted_[n] = state_[n].velocity;
   former_.resize(state_.size());
   for (std::size_t n = 0; n < state_.size(); ++n) former_[n] = state_[n].former;
   former_bodies_ = bodies_;
@@ -96,7 +99,8 @@ void Contact::gather(double time, double dt) {
 
 // How fast an overlap may go: as far as what the pair has stored pays for it, for that is what it took to get in; and a
 // ten-thousandth of a face per step, which is not felt, where it came by a change of faces.
-double Contact::removal_speed(const Constraint& q, double dt) const {
+void Contact::limit_removal(Constraint& q, double dt) const {
+  if (q.gap >= 0) return;
   const WorkingPair& pair = set_.pairs()[static_cast<std::size_t>(q.pair)];
   constexpr double slow = 1e-3;  // of the distance of interest, a tenth of a face
   double lightest = 0;
@@ -105,7 +109,7 @@ double Contact::removal_speed(const Constraint& q, double dt) const {
       const std::array<double, 6>& w = state_[static_cast<std::size_t>(q.node[k])].mobility.w;
       lightest = std::max({lightest, w[0], w[1], w[2]});
     }
-  return std::max(slow * pair.margin / dt, std::sqrt(2 * pair.memory.energy * lightest));
+  q.target = std::min(q.target, std::max(slow * pair.margin / dt, std::sqrt(2 * pair.memory.energy * lightest)));
 }
 
 void Contact::solve(double time, double dt, double kick) {
@@ -113,7 +117,7 @@ void Contact::solve(double time, double dt, double kick) {
     const PairMemory& memory = set_.pairs()[static_cast<std::size_t>(q.pair)].memory;
     const double along = std::max(0.0, dot(memory.force, q.normal));
     q.impulse = (kick * along) * q.normal;
-    if (q.gap < 0) q.target = std::min(q.target, removal_speed(q, dt));
+    limit_removal(q, dt);
     if (q.static_coefficient > 0)
       q.impulse = q.impulse + kick * (memory.force - dot(memory.force, q.normal) * q.normal);
   }

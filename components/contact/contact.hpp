@@ -63,6 +63,8 @@ class Contact final : public Interaction {
   std::int64_t enforcement_work() const { return enforcement_work_; }
   std::int64_t searches() const { return searches_; }
   std::int64_t steps() const { return steps_; }
+  /// Of enforcement, since the start.
+  std::int64_t iterations() const { return iterations_total_; }
 
  private:
   using Constraint = contact::Constraint;
@@ -93,7 +95,10 @@ class Contact final : public Interaction {
   void find_constraints(double time, double dt);
   bool find_more(double time, double dt);
   bool is_moved(std::size_t begin, std::size_t end) const;
+  void make_groups();
   void touch_pairs(double time, double dt);
+  double fastest(std::span<const Vec3> velocity, double time, double dt) const;
+  double least_distance(const contact::WorkingPair& pair) const;
   void touch_faces(std::size_t begin, std::size_t end, double dt);
   void touch_edges(std::size_t pair, double dt);
   void touch_rigid(std::size_t pair, double time, double dt);
@@ -101,7 +106,7 @@ class Contact final : public Interaction {
                       const contact::RigidTouch* rigid, double dt);
   void hand_over(std::size_t begin, std::size_t end, std::size_t first_constraint);
   void solve(double time, double dt, double kick);
-  double removal_speed(const Constraint& constraint, double dt) const;
+  void limit_removal(Constraint& constraint, double dt) const;
   void release();
   void book(double dt, double kick);
   void send_back();
@@ -136,6 +141,7 @@ class Contact final : public Interaction {
 
   std::map<GlobalId, double> kept_;  // m: overlap that nodes of this rank were given
 
+  double used_before_ = 0;
   double used_ = 0;                 // of the skins, after the last step
   std::vector<Vec3> rigid_sought_;  // shifts of rigid surfaces when sought, m
   double rigid_skin_ = 0;           // m, which they may move beside the common motion
@@ -159,9 +165,23 @@ class Contact final : public Interaction {
   std::vector<std::array<GlobalId, 4>> touch_nodes_;
   std::vector<GlobalId> touch_ids_;
   std::vector<std::size_t> touch_pairs_;
-  std::vector<char> moved_;  // nodes of the set, by contact
-  bool again_ = false;       // ways are looked at once more
-  bool any_constraint_ = false, fields_filled_ = false;
+  struct Group {
+    std::size_t begin, end;
+  };
+  std::vector<Group> groups_;              // of pairs
+  std::vector<double> wake_, group_wake_;  // m: at which way_ a pair may touch; 0: it may now
+  double way_ = 0, fastest_ = 0;           // m, twice the longest way of a node since the search; m/s
+  std::vector<Vec3> predicted_;            // velocities by all other forces, m/s
+  std::vector<char> moved_;                // nodes of the set, by contact
+  bool remembers_ = false;                 // some pair of the node in hand has a memory to hand over
+  bool settling_ = false;                  // before the first step: everything stands
+  bool again_ = false;                     // ways are looked at once more
+  bool any_constraint_ = false;
+  struct Filled {
+    std::int32_t party;
+    LocalIndex node;
+  };
+  std::vector<Filled> filled_, formerly_filled_;  // nodes with fields of this step and of the one before
   std::vector<Vec3> home_impulse_;
   std::vector<NodeResult> results_, home_results_;
 

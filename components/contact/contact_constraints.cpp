@@ -28,8 +28,8 @@ Vec3 tangential(const Vec3& a, const Vec3& normal) {
 
 void Contact::find_constraints(double time, double dt) {
   const ScopedTimer timer(*phases_.touch);
+  for (const Constraint& q : constraints_) constraint_of_pair_[static_cast<std::size_t>(q.pair)] = -1;
   constraints_.clear();
-  constraint_of_pair_.assign(set_.pairs().size(), -1);
   again_ = false;
   touch_pairs(time, dt);
 }
@@ -47,6 +47,7 @@ bool Contact::find_more(double time, double dt) {
   }
   again_ = true;
   touch_pairs(time, dt);
+  for (std::size_t k = before; k < constraints_.size(); ++k) limit_removal(constraints_[k], dt);
   return constraints_.size() > before;
 }
 
@@ -57,21 +58,91 @@ bool Contact::is_moved(std::size_t begin, std::size_t end) const {
   return false;
 }
 
-void Contact::touch_pairs(double time, double dt) {
+/// Pairs of which the first sides are the same node stand together; the others are alone.
+void Contact::make_groups() {
   const std::vector<WorkingPair>& pairs = set_.pairs();
+  groups_.clear();
   for (std::size_t begin = 0, end = 0; begin < pairs.size(); begin = end) {
     end = begin + 1;
-    if (pairs[begin].key.kind == 0) {
-      while (end < pairs.size() && pairs[end].key.kind == 0 && pairs[end].key.ids[0] == pairs[begin].key.ids[0]) ++end;
-      if (!again_ || is_moved(begin, end)) touch_faces(begin, end, dt);
-    } else if (again_ && (constraint_of_pair_[begin] >= 0 || !is_moved(begin, end))) {
-      continue;
-    } else if (pairs[begin].key.kind == 1) {
-      touch_rigid(begin, time, dt);
-    } else {
-      touch_edges(begin, dt);
-    }
+    while (pairs[begin].key.kind == 0 && end < pairs.size() && pairs[end].key.kind == 0 &&
+           pairs[end].key.ids[0] == pairs[begin].key.ids[0])
+      ++end;
+    groups_.push_back({begin, end});
   }
+  wake_.assign(pairs.size(), 0.0), group_wake_.assign(groups_.size(), 0.0);
+  constraint_of_pair_.assign(pairs.size(), -1);
+  constraints_.clear();
+  way_ = 0;
+}
+
+// A pair that is too far apart sleeps until the ways of all nodes since could have brought it together. What sleeps
+// could not touch, so no answer depends on it.
+void Contact::touch_pairs(double time, double dt) {
+  const std::span<const Vec3> velocity = again_ ? enforcement_.velocities() : std::span<const Vec3>(predicted_);
+  fastest_ = std::max(again_ ? fastest_ : 0.0, fastest(velocity, time, dt));
+  const double reach = 2 * dt * fastest_;
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    const auto [begin, end] = groups_[g];
+    if (group_wake_[g] > way_ + reach) continue;
+    if (again_ && !is_moved(begin, end)) continue;
+    for (std::size_t q = begin; q < end; ++q)
+      if (wake_[q] <= way_ + reach) {
+        const double apart = least_distance(set_.pairs()[q]);
+        wake_[q] = apart > reach && set_.pairs()[q].memory.empty() ? way_ + apart : 0.0;
+      }
+    group_wake_[g] = *std::min_element(wake_.begin() + static_cast<std::ptrdiff_t>(begin),
+                                       wake_.begin() + static_cast<std::ptrdiff_t>(end));
+    if (group_wake_[g] > 0) continue;
+    const std::int64_t kind = set_.pairs()[begin].key.kind;
+    if (kind == 0)
+      touch_faces(begin, end, dt);
+    else if (again_ && constraint_of_pair_[begin] >= 0)
+      continue;
+    else if (kind == 1)
+      touch_rigid(begin, time, dt);
+    else
+      touch_edges(begin, dt);
+  }
+}
+
+/// Greatest speed of the nodes here and of rigid surfaces, beside what all have in common, m/s.
+double Contact::fastest(std::span<const Vec3> velocity, double time, double dt) const {
+  double squared = 0;
+  const Vec3& common = search_.common();
+  for (const Vec3& v : velocity) {
+    const Vec3 own = v - common;
+    squared = std::max(squared, dot(own, own));
+  }
+  for (const MovingSurface& surface : rigid_) {
+    const Vec3 own = surface.velocity(time, dt) - common;
+    squared = std::max(squared, dot(own, own));
+  }
+  constexpr double chords = 1.05;  // nodes of rigid bodies move by chords of their ways
+  return chords * std::sqrt(squared);
+}
+
+/// How far the two are from being of interest, at least, at the start of the step, m.
+double Contact::least_distance(const WorkingPair& pair) const {
+  const auto place = [&](std::int32_t k) -> const Vec3& {
+    return state_[static_cast<std::size_t>(pair.node[static_cast<std::size_t>(k)])].place;
+  };
+  const auto ball = [&](std::int32_t first, std::int32_t end, Vec3& centre) {
+    centre = {};
+    for (std::int32_t k = first; k < end; ++k) centre = centre + place(k);
+    centre = (1.0 / (end - first)) * centre;
+    double squared = 0;
+    for (std::int32_t k = first; k < end; ++k) {
+      const Vec3 r = place(k) - centre;
+      squared = std::max(squared, dot(r, r));
+    }
+    return std::sqrt(squared);
+  };
+  const double near = std::max(pair.clearance, 0.0) + pair.margin + pair.depth;
+  if (pair.key.kind == 1) return rigid_[static_cast<std::size_t>(pair.key.ids[1])].distance(place(0)) - near;
+  const std::int32_t split = pair.key.kind == 0 ? 1 : 2;
+  Vec3 a, b;
+  const double first = ball(0, split, a), second = ball(split, pair.nodes, b);
+  return norm(a - b) - first - second - near;
 }
 
 // All candidate faces of a node: from those that it can touch, those that matter.
@@ -80,8 +151,12 @@ void Contact::touch_faces(std::size_t begin, std::size_t end, double dt) {
   const auto n = static_cast<std::size_t>(pairs[begin].node[0]);
   const std::size_t first_constraint = constraints_.size();
   touches_.clear(), touch_nodes_.clear(), touch_ids_.clear(), touch_pairs_.clear();
+  remembers_ =
+      std::any_of(pairs.begin() + static_cast<std::ptrdiff_t>(begin), pairs.begin() + static_cast<std::ptrdiff_t>(end),
+                  [](const WorkingPair& pair) { return !pair.memory.empty(); });
   for (std::size_t q = begin; q < end; ++q) {
     const WorkingPair& pair = pairs[q];
+    if (wake_[q] > 0) continue;
     FaceShape start{pair.nodes - 1, {}}, finish{pair.nodes - 1, {}};
     std::array<GlobalId, 4> ids{no_id, no_id, no_id, no_id};
     for (std::int32_t k = 1; k < pair.nodes; ++k) {
@@ -111,6 +186,7 @@ void Contact::touch_faces(std::size_t begin, std::size_t end, double dt) {
 
 void Contact::touch_edges(std::size_t q, double dt) {
   const WorkingPair& pair = set_.pairs()[q];
+  remembers_ = !pair.memory.empty();
   std::array<EdgeShape, 4> edge;  // first at start and end, second likewise
   for (std::size_t k = 0; k < 4; ++k) {
     const auto n = static_cast<std::size_t>(pair.node[k]);
@@ -126,15 +202,17 @@ void Contact::touch_edges(std::size_t q, double dt) {
 
 void Contact::touch_rigid(std::size_t q, double time, double dt) {
   const WorkingPair& pair = set_.pairs()[q];
+  remembers_ = !pair.memory.empty();
   const auto n = static_cast<std::size_t>(pair.node[0]);
   const MovingSurface& surface = rigid_[static_cast<std::size_t>(pair.key.ids[1])];
   RigidTouch touch;
-  if (surface.touch(state_[n].place, end_[n], surface.velocity(time, dt), dt, pair.clearance, pair.margin, touch))
+  const Vec3 velocity = settling_ ? Vec3{} : surface.velocity(time, dt);
+  if (surface.touch(state_[n].place, end_[n], velocity, dt, pair.clearance, pair.margin, touch))
     add_constraint(q, nullptr, nullptr, &touch, dt);
   if (constraint_of_pair_[q] >= 0) {
     Constraint& constraint = constraints_.back();
     constraint.body = first_body_[parties_.size() + static_cast<std::size_t>(pair.key.ids[1])];
-    if (constraint.body < 0) constraint.surface_velocity = surface.velocity(time, dt);
+    if (constraint.body < 0) constraint.surface_velocity = velocity;
     constraint.former_surface_velocity = constraint.surface_velocity;
   }
   hand_over(q, q + 1, constraint_of_pair_[q] < 0 ? constraints_.size() : constraints_.size() - 1);
@@ -145,7 +223,7 @@ void Contact::add_constraint(std::size_t q, const Touch* face, const EdgeTouch* 
   const WorkingPair& pair = set_.pairs()[q];
   const double gap = face ? face->gap : edges ? edges->gap : rigid->gap;
   const double end_gap = face ? face->end_gap : edges ? edges->end_gap : rigid->end_gap;
-  if (again_ ? end_gap > -negligible * pair.margin : end_gap > 0 && pair.memory.empty()) return;  // near, no more
+  if (again_ ? end_gap > -negligible * pair.margin : end_gap > 0 && !remembers_) return;  // near, no more
   Constraint c;
   c.pair = static_cast<std::int32_t>(q), c.nodes = pair.nodes, c.node = pair.node;
   c.gap = gap;

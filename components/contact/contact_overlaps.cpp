@@ -49,7 +49,7 @@ void Contact::settle_overlaps() {
         fmt::format("{}: {} overlaps are not quite removed after {} passes; the rest goes in the first "
                     "steps",
                     name(), left, greatest_passes));
-  constraints_.clear();
+  make_groups();
   any_constraint_ = false;
 }
 
@@ -59,12 +59,15 @@ void Contact::find_overlaps() {
   for (std::size_t n = 0; n < state_.size(); ++n) {
     state_[n].velocity = state_[n].former = {};
     end_[n] = state_[n].place;
+    predicted_[n] = {};
   }
   for (Body& body : bodies_) {
     body.state.velocity = body.state.spin = {};
     body.state.inverse_mass.fill(0), body.state.inverse_inertia.fill(0);  // bodies stay where they were put
   }
+  settling_ = true;
   find_constraints(components_.front()->time(), 1);
+  settling_ = false;
   std::erase_if(constraints_, [&](const Constraint& q) {
     return !(q.gap < -least_overlap * set_.pairs()[static_cast<std::size_t>(q.pair)].margin);
   });

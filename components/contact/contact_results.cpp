@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "components/contact/contact.hpp"
 
@@ -55,43 +56,48 @@ Contact::NodeResult Contact::result_of(std::size_t node, double kick) const {
   return result;
 }
 
+// Of the nodes that were filled in the step before, those that nothing holds any more are free again.
 void Contact::fill_fields(double kick) {
   clear_fields();
-  if (!any_constraint_) return;
-  results_.assign(state_.size(), NodeResult{});
-  for (std::size_t n = 0; n < state_.size(); ++n)
-    if (set_.sums(static_cast<LocalIndex>(n))) results_[n] = result_of(n, kick);
-  home_results_.assign(set_.busy().size(), NodeResult{});
-  set_.results().reverse<NodeResult>(results_, home_results_);
-  for (std::size_t b = 0; b < home_results_.size(); ++b) {
-    const SurfaceNode& node = surfaces_.nodes()[static_cast<std::size_t>(set_.busy()[b])];
-    const auto n = static_cast<std::size_t>(node.node);
-    ContactFields& fields = parties_[static_cast<std::size_t>(node.party)]->contact_fields();
-    const NodeResult& result = home_results_[b];
-    if (result.status == 0) continue;
-    fields.force[n] = result.force;
-    fields.gap[n] = result.gap;
-    fields.status[n] = result.status;
-    fields.pressure[n] = node.area > 0 ? result.pressure / node.area : 0;
-    fields.slip[n] = result.status >= slipping ? fields.slip[n] + result.slip : Vec3{};
-    fields.friction_heat[n] += result.heat;
+  if (any_constraint_) {
+    results_.assign(state_.size(), NodeResult{});
+    for (std::size_t n = 0; n < state_.size(); ++n)
+      if (set_.sums(static_cast<LocalIndex>(n))) results_[n] = result_of(n, kick);
+    home_results_.assign(set_.busy().size(), NodeResult{});
+    set_.results().reverse<NodeResult>(results_, home_results_);
+    for (std::size_t b = 0; b < home_results_.size(); ++b) {
+      const SurfaceNode& node = surfaces_.nodes()[static_cast<std::size_t>(set_.busy()[b])];
+      const auto n = static_cast<std::size_t>(node.node);
+      ContactFields& fields = parties_[static_cast<std::size_t>(node.party)]->contact_fields();
+      const NodeResult& result = home_results_[b];
+      if (result.status == 0) continue;
+      fields.force[n] = result.force;
+      fields.gap[n] = result.gap;
+      fields.status[n] = result.status;
+      fields.pressure[n] = node.area > 0 ? result.pressure / node.area : 0;
+      fields.slip[n] = result.status >= slipping ? fields.slip[n] + result.slip : Vec3{};
+      fields.friction_heat[n] += result.heat;
+      filled_.push_back({node.party, node.node});
+    }
   }
-  fields_filled_ = true;
+  for (const Filled& node : formerly_filled_) {
+    ContactFields& fields = parties_[static_cast<std::size_t>(node.party)]->contact_fields();
+    const auto n = static_cast<std::size_t>(node.node);
+    if (fields.status[n] == 0) fields.slip[n] = {};
+  }
 }
 
-// What accumulates stays: the heat until it is taken, the slip until a node is free for a step.
+// What accumulates stays: the heat until it is taken, the slip while a node goes on touching.
 void Contact::clear_fields() {
-  for (const SurfaceNode& node : surfaces_.nodes()) {
+  std::swap(filled_, formerly_filled_);
+  filled_.clear();
+  for (const Filled& node : formerly_filled_) {
     ContactFields& fields = parties_[static_cast<std::size_t>(node.party)]->contact_fields();
     const auto n = static_cast<std::size_t>(node.node);
-    if (fields.status[n] == 0) {
-      fields.slip[n] = {};
-      continue;
-    }
     fields.force[n] = {};
-    fields.gap[n] = fields.status[n] = fields.pressure[n] = 0;
+    fields.gap[n] = std::numeric_limits<double>::infinity();
+    fields.status[n] = fields.pressure[n] = 0;
   }
-  fields_filled_ = false;
 }
 
 // Supplied: minus what the parties' nodes were given, and what drives rigid surfaces. Stored: what impacts have taken
@@ -136,7 +142,7 @@ std::vector<HistoryValue> Contact::history_values() {
 }
 
 std::vector<SkipCount> Contact::skips() const {
-  return {{"contact searches (skins not used up)", steps_ - searches_},
+  return {{"contact searches (skins not used up)", std::max<std::int64_t>(0, steps_ - searches_)},
           {"contact impulses (nothing touches)", idle_steps_}};
 }
 

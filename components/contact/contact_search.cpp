@@ -13,9 +13,10 @@ using namespace contact;
 
 namespace {
 
-// A search in good time, before a step begins, also remembers velocities of before the kick; one in the middle of a
+// Of the skins, as it will be at the end of the coming step if the nodes go on as in the last one. A search in good
+// time, before a step begins, also remembers velocities of before the kick; one in the middle of a
 // step is a way out for sudden motion.
-constexpr double in_good_time = 0.7;
+constexpr double in_good_time = 0.8;
 constexpr double greatest_widening = 64;
 constexpr int searches_before_widening = 20;
 
@@ -26,21 +27,23 @@ void Contact::prepare(double time, double dt) {
     surfaces_.build();
     search_.forget();
   }
-  if (options_.always_search || !search_.sought() || used_ > in_good_time) search(time, dt);
+  if (options_.always_search || !search_.sought() || used_ + (used_ - used_before_) > in_good_time) search(time, dt);
+  used_before_ = used_;
 }
 
 void Contact::search(double time, double dt) {
   renew(time, dt);
   ++searches_;
-  if (set_.any() && widening_ > 1) {  // something is near after all: wide skins would find too much
+  const bool something = set_.any() || comm_.any(set_.turned_away() > 0);
+  if (something && widening_ > 1) {  // something is near after all: wide skins would find too much
     widening_ = 1, narrow_ = searches_before_widening;
     search_.widen(1);
     renew(time, dt);
-  } else if (!set_.any() && narrow_-- <= 0) {
+  } else if (!something && narrow_-- <= 0) {
     widening_ = std::min(2 * widening_, greatest_widening);
     search_.widen(widening_);
   }
-  used_ = 0;
+  used_ = used_before_ = 0;
 }
 
 void Contact::renew(double time, double dt) {
@@ -57,6 +60,7 @@ void Contact::renew(double time, double dt) {
   restored_.clear();
   for (const double energy : set_.lost()) dissipated_.add(energy);
   limit_clearances();
+  make_groups();
   watch_nodes();
 }
 

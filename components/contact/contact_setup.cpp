@@ -69,6 +69,11 @@ std::string Contact::surface_name(std::int32_t surface) const {
 
 void Contact::read_pairs() {
   surface_count_ = static_cast<std::int32_t>(surfaces_.names().size() + rigid_.size());
+  for (std::int32_t a = 0; a < surface_count_; ++a)
+    if (find_surface(surface_name(a)) != a)
+      throw Error(ExitCode::usage, fmt::format("{}: a block and a rigid surface, or two of one kind, are called '{}'; "
+                                               "give each a name of its own",
+                                               name(), surface_name(a)));
   const auto count = static_cast<std::size_t>(surface_count_);
   rules_.assign(count * count, {false, options_.friction});
   const auto total = [&](std::int32_t a, std::int32_t b) {
@@ -106,6 +111,10 @@ void Contact::initialize() {
     kept_[item.first.ids[0]] = item.second.energy;
     return true;
   });
+  for (const SurfaceNode& node : surfaces_.nodes())  // after a restart: slip goes on where a node goes on touching
+    if (parties_[static_cast<std::size_t>(node.party)]->contact_fields().slip[static_cast<std::size_t>(node.node)] !=
+        Vec3{})
+      filled_.push_back({node.party, node.node});
   search(components_.front()->time(), 0);
   if (!started_) settle_overlaps();
   started_ = true;

@@ -41,7 +41,8 @@ double face_height(const std::array<Vec3, 4>& x, int corners) {
   double longest = 0;
   for (int k = 0; k < corners; ++k)
     longest = std::max(longest, norm(x[static_cast<std::size_t>((k + 1) % corners)] - x[static_cast<std::size_t>(k)]));
-  return longest > 0 ? (corners == 3 ? 2 : 1) * face_area(x, corners) / longest : 0;
+  constexpr double least = 0.05;  // of the longest edge: slivers do not set the skin of all around them
+  return longest > 0 ? std::max((corners == 3 ? 2 : 1) * face_area(x, corners) / longest, least * longest) : 0;
 }
 
 LocalIndex local_node(const Mesh& mesh, GlobalId id) {

@@ -250,7 +250,10 @@ void Enforcement::move(std::span<const Constraint> constraints, std::span<const 
 Enforcement::Change Enforcement::iterate(std::span<Constraint> constraints, std::span<const Body> bodies, double beta) {
   Change found;
   for (Constraint& q : constraints) {
-    if (q.inverse == 0) continue;
+    if (q.inverse == 0) {  // nothing can move
+      q.impulse = q.extrapolated = {};
+      continue;
+    }
     Vec3 plain{};
     for (std::size_t i = 0; i < static_cast<std::size_t>(q.nodes); ++i)
       plain = plain + q.c[i] * velocity_[static_cast<std::size_t>(q.node[i])];
@@ -282,7 +285,11 @@ Enforcement::Change Enforcement::iterate(std::span<Constraint> constraints, std:
 
 Enforcement::Report Enforcement::solve(std::span<Constraint> constraints, std::span<const NodeState> nodes,
                                        std::vector<Body>& bodies) {
-  has_bodies_ = !bodies.empty();
+  has_bodies_ = !bodies.empty() && comm_.any(std::ranges::any_of(constraints, [&](const Constraint& q) {
+    return q.body >= 0 || std::any_of(q.node.begin(), q.node.begin() + q.nodes, [&](LocalIndex n) {
+             return nodes[static_cast<std::size_t>(n)].mobility.body >= 0;
+           });
+  }));
   velocity_.resize(nodes.size()), sum_.resize(nodes.size());
   connect(constraints);
   precondition(constraints, nodes, bodies, {});

@@ -10,16 +10,6 @@ namespace tenon::contact {
 
 namespace {
 
-/// A face as others need to know it.
-struct FaceRecord {
-  GlobalId id;
-  std::array<GlobalId, 4> behind;
-  std::array<NodeRef, 4> corners;
-  Vec3 normal;
-  std::int32_t count, surface, two_sided, party;
-  double radius, depth;
-};
-
 /// An edge likewise.
 struct EdgeRecord {
   std::array<NodeRef, 2> ends;
@@ -45,6 +35,14 @@ bool faces_against(const Vec3& of_node, const Vec3& of_face) {
   return of_node == Vec3{} || dot(of_node, of_face) < -0.2;
 }
 
+/// The edge of a knife or the end of a needle: its faces turn away from whatever it meets.
+bool is_pointed(std::span<const Vec3> around) {
+  for (const Vec3& a : around)
+    for (const Vec3& b : around)
+      if (dot(a, b) < -0.5) return true;
+  return false;
+}
+
 NodeRef reference(const Corner& corner) {
   return {corner.id, corner.home, -1};
 }
@@ -56,7 +54,30 @@ bool shares_node(const PairRecord& pair, std::size_t first) {
   return false;
 }
 
+/// Ascending by key; the records are long, so keys are sorted in their place.
+void sort_records(std::vector<PairRecord>& records) {
+  if (std::ranges::is_sorted(records, {}, &PairRecord::key)) return;
+  std::vector<std::pair<PairKey, std::size_t>> order;
+  order.reserve(records.size());
+  for (std::size_t i = 0; i < records.size(); ++i) order.emplace_back(records[i].key, i);
+  std::ranges::sort(order, {}, &std::pair<PairKey, std::size_t>::first);
+  std::vector<PairRecord> sorted;
+  sorted.reserve(records.size());
+  for (const auto& [key, i] : order) sorted.push_back(records[i]);
+  records = std::move(sorted);
+}
+
 }  // namespace
+
+/// A face as others need to know it.
+struct WorkingSet::FaceRecord {
+  GlobalId id;
+  std::array<GlobalId, 4> behind;
+  std::array<NodeRef, 4> corners;
+  Vec3 normal;
+  std::int32_t count, surface, two_sided, party;
+  double radius, depth;
+};
 
 WorkingSet::WorkingSet(const Communicator& comm, const ContactSurfaces& surfaces, SearchDecomposition decomposition)
     : comm_(comm), surfaces_(surfaces), decomposition_(decomposition), rcb_(comm) {}
@@ -104,7 +125,7 @@ void WorkingSet::remember(std::span<const std::pair<PairKey, PairMemory>> restor
 void WorkingSet::gather_records(const CandidateSearch& search, const PairFilter& filter) {
   add_node_faces(search);
   add_edges(search);
-  std::ranges::sort(records_, {}, &PairRecord::key);
+  sort_records(records_);
   std::size_t kept = 0;
   auto memory = memories_.begin();
   const auto pass = [&](const PairKey& key) {  // memories before it that no pair takes over
@@ -123,52 +144,89 @@ void WorkingSet::gather_records(const CandidateSearch& search, const PairFilter&
   records_.resize(kept);
 }
 
-// The rank of the node asks the rank of the face what it is.
+WorkingSet::FaceRecord WorkingSet::record_of(const SurfaceFace& face, const Vec3& normal) const {
+  FaceRecord record;
+  record.id = face.id, record.count = face.count(), record.surface = face.surface;
+  record.two_sided = face.two_sided ? 1 : 0, record.party = face.party;
+  record.radius = face.radius, record.depth = reliable_depth * face.depth, record.behind = face.behind;
+  record.normal = normal;
+  for (std::size_t k = 0; k < 4; ++k) record.corners[k] = reference(face.corners[k]);
+  return record;
+}
+
+// The rank of the node asks the rank of the face what it is; most faces are its own.
 void WorkingSet::add_node_faces(const CandidateSearch& search) {
-  std::vector<int> to;
-  for (const BoxPair& pair : search.node_faces()) to.push_back(pair.first.rank);
-  const ExchangePlan plan = ExchangePlan::to_ranks(comm_, to, "contact candidates");
-  std::vector<BoxPair> found(static_cast<std::size_t>(plan.received()));
-  plan.forward<BoxPair>(search.node_faces(), found);
-
+  turned_away_ = 0;
+  std::vector<BoxPair> found;
+  if (comm_.size() > 1) {
+    std::vector<int> to;
+    for (const BoxPair& pair : search.node_faces()) to.push_back(pair.first.rank);
+    const ExchangePlan plan = ExchangePlan::to_ranks(comm_, to, "contact candidates");
+    found.resize(static_cast<std::size_t>(plan.received()));
+    plan.forward<BoxPair>(search.node_faces(), found);
+  }
+  const std::span<const BoxPair> all = comm_.size() > 1 ? std::span<const BoxPair>(found) : search.node_faces();
   const std::vector<SurfaceFace>& faces = surfaces_.faces();
-  std::vector<FaceRecord> own(faces.size());
-  for (std::size_t f = 0; f < faces.size(); ++f) {
-    const SurfaceFace& face = faces[f];
-    FaceRecord& record = own[f];
-    record.id = face.id, record.count = face.count(), record.surface = face.surface;
-    record.two_sided = face.two_sided ? 1 : 0, record.party = face.party;
-    record.radius = face.radius, record.depth = reliable_depth * face.depth, record.behind = face.behind;
-    record.normal = search.face_normals()[f];
-    for (std::size_t k = 0; k < 4; ++k) record.corners[k] = reference(face.corners[k]);
-  }
-  std::vector<int> owners(found.size());
-  std::vector<LocalIndex> index(found.size()), into(found.size());
-  for (std::size_t i = 0; i < found.size(); ++i)
-    owners[i] = found[i].second.rank, index[i] = found[i].second.index, into[i] = static_cast<LocalIndex>(i);
-  const ExchangePlan pull = ExchangePlan::from_owners(comm_, owners, index, into, "contact candidates");
-  std::vector<FaceRecord> of_pairs(found.size());
-  pull.forward<FaceRecord>(own, of_pairs);
-
-  const std::vector<SurfaceNode>& nodes = surfaces_.nodes();
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    const SurfaceNode& node = nodes[static_cast<std::size_t>(found[i].first.index)];
-    const FaceRecord& face = of_pairs[i];
-    PairRecord pair;
-    pair.key = {0, {node.id, face.id, 0, 0}};
-    pair.nodes = 1 + face.count, pair.two_sided = face.two_sided != 0;
-    pair.first_surface = node.surface, pair.second_surface = face.surface;
-    pair.node[0] = {node.id, found[i].first, -1};
-    std::copy_n(face.corners.begin(), face.count, pair.node.begin() + 1);
-    if (shares_node(pair, 1) || std::ranges::find(face.behind, node.id) != face.behind.end()) continue;
-    const std::span<const Vec3> around =
-        surfaces_.normals_of(search.normals_around(), static_cast<std::size_t>(found[i].first.index));
-    if (!pair.two_sided && std::ranges::none_of(around, [&](const Vec3& n) { return faces_against(n, face.normal); }))
+  std::vector<BoxPair> far;
+  for (const BoxPair& pair : all) {
+    if (pair.second.rank != comm_.rank()) {
+      far.push_back(pair);
       continue;
-    pair.shells = pair.two_sided && node.radius > 0 && node.party == face.party;
-    pair.clearance = node.radius + face.radius, pair.depth = face.depth, pair.margin = near_share * node.size;
-    records_.push_back(pair);
+    }
+    // Most of what is near a node on its own surface is left out before anything is copied.
+    const auto f = static_cast<std::size_t>(pair.second.index);
+    const GlobalId node = surfaces_.nodes()[static_cast<std::size_t>(pair.first.index)].id;
+    const auto is_node = [&](const Corner& corner) { return corner.id == node; };
+    if (std::ranges::any_of(faces[f].corners, is_node) ||
+        std::ranges::find(faces[f].behind, node) != faces[f].behind.end())
+      continue;
+    if (may_press(search, pair.first.index, search.face_normals()[f], faces[f].two_sided))
+      add_pair(pair.first, record_of(faces[f], search.face_normals()[f]));
+    else
+      ++turned_away_;
   }
+  if (comm_.size() == 1) return;
+
+  std::vector<FaceRecord> own(faces.size());
+  for (std::size_t f = 0; f < faces.size(); ++f) own[f] = record_of(faces[f], search.face_normals()[f]);
+  std::vector<int> owners(far.size());
+  std::vector<LocalIndex> index(far.size()), into(far.size());
+  for (std::size_t i = 0; i < far.size(); ++i)
+    owners[i] = far[i].second.rank, index[i] = far[i].second.index, into[i] = static_cast<LocalIndex>(i);
+  const ExchangePlan pull = ExchangePlan::from_owners(comm_, owners, index, into, "contact candidates");
+  std::vector<FaceRecord> of_pairs(far.size());
+  pull.forward<FaceRecord>(own, of_pairs);
+  for (std::size_t i = 0; i < far.size(); ++i) {
+    const FaceRecord& face = of_pairs[i];
+    const GlobalId node = surfaces_.nodes()[static_cast<std::size_t>(far[i].first.index)].id;
+    const auto is_node = [&](const NodeRef& corner) { return corner.id == node; };
+    if (std::ranges::any_of(face.corners, is_node) || std::ranges::find(face.behind, node) != face.behind.end())
+      continue;
+    if (may_press(search, far[i].first.index, face.normal, face.two_sided != 0))
+      add_pair(far[i].first, face);
+    else
+      ++turned_away_;
+  }
+}
+
+bool WorkingSet::may_press(const CandidateSearch& search, LocalIndex node, const Vec3& normal, bool two_sided) const {
+  if (two_sided) return true;
+  const std::span<const Vec3> around = surfaces_.normals_of(search.normals_around(), static_cast<std::size_t>(node));
+  return std::ranges::any_of(around, [&](const Vec3& of_node) { return faces_against(of_node, normal); }) ||
+         is_pointed(around);
+}
+
+void WorkingSet::add_pair(const ItemHandle& home, const FaceRecord& face) {
+  const SurfaceNode& node = surfaces_.nodes()[static_cast<std::size_t>(home.index)];
+  PairRecord pair;
+  pair.key = {0, {node.id, face.id, 0, 0}};
+  pair.nodes = 1 + face.count, pair.two_sided = face.two_sided != 0;
+  pair.first_surface = node.surface, pair.second_surface = face.surface;
+  pair.node[0] = {node.id, home, -1};
+  std::copy_n(face.corners.begin(), face.count, pair.node.begin() + 1);
+  pair.shells = pair.two_sided && node.radius > 0 && node.party == face.party;
+  pair.clearance = node.radius + face.radius, pair.depth = face.depth, pair.margin = near_share * node.size;
+  records_.push_back(pair);
 }
 
 // A pair of edges belongs to the rank of the first end of the lesser one.
@@ -229,11 +287,15 @@ void WorkingSet::partition() {
       const ItemHandle& home = pair.node[static_cast<std::size_t>(k)].home;
       owners.push_back(home.rank), index.push_back(home.index);
     }
-  std::vector<LocalIndex> into(owners.size());
-  std::iota(into.begin(), into.end(), LocalIndex{0});
-  const ExchangePlan tell = ExchangePlan::to_ranks(comm_, owners, "contact candidates");
-  std::vector<LocalIndex> told(static_cast<std::size_t>(tell.received()));
-  tell.forward<LocalIndex>(index, told);
+  ExchangePlan tell;
+  std::vector<LocalIndex> told;
+  if (comm_.size() > 1) {
+    tell = ExchangePlan::to_ranks(comm_, owners, "contact candidates");
+    told.resize(static_cast<std::size_t>(tell.received()));
+    tell.forward<LocalIndex>(index, told);
+  } else {
+    told.swap(index);
+  }
   busy_slot_.assign(nodes.size(), no_index);
   std::vector<double> uses(nodes.size());
   for (const LocalIndex n : told) uses[static_cast<std::size_t>(n)] += 1;
@@ -253,6 +315,11 @@ void WorkingSet::partition() {
     const std::vector<int> parts = rcb_.partition(places, weights);
     for (std::size_t b = 0; b < busy_.size(); ++b) home_part_[static_cast<std::size_t>(busy_[b])] = parts[b];
   }
+  if (comm_.size() == 1) {
+    for (PairRecord& pair : records_)
+      for (std::int32_t k = 0; k < pair.nodes; ++k) pair.node[static_cast<std::size_t>(k)].part = comm_.rank();
+    return;
+  }
   // What the homes answer returns the way that the questions came.
   std::vector<std::int32_t> answers(told.size()), parts(owners.size());
   for (std::size_t i = 0; i < told.size(); ++i) answers[i] = home_part_[static_cast<std::size_t>(told[i])];
@@ -265,6 +332,11 @@ void WorkingSet::partition() {
 // All pairs that begin with the same node go to every rank that sums for a node of one of them: the choice among the
 // faces of a node needs them all.
 void WorkingSet::send_records() {
+  if (comm_.size() == 1) {
+    arrived_.swap(records_);
+    any_ = !arrived_.empty();
+    return;
+  }
   std::vector<int> to;
   std::vector<LocalIndex> which;
   std::vector<int> ranks;
@@ -284,7 +356,7 @@ void WorkingSet::send_records() {
   const ExchangePlan plan = ExchangePlan::to_ranks(comm_, to, which, "contact pairs");
   arrived_.resize(static_cast<std::size_t>(plan.received()));
   plan.forward<PairRecord>(records_, arrived_);
-  std::ranges::sort(arrived_, {}, &PairRecord::key);
+  sort_records(arrived_);
   any_ = comm_.any(!arrived_.empty());
 }
 
@@ -340,6 +412,7 @@ void WorkingSet::connect() {
   ask.forward<LocalIndex>(busy_slot_, slot);
   from_home_ = ExchangePlan::from_owners(comm_, home_rank, slot, every, "contact state");
   results_ = ExchangePlan::from_owners(comm_, result_rank, slot, every, "contact impulses");
+  if (comm_.size() == 1) return;  // halo_ is empty
   const std::vector<LocalIndex> places = places_at_owners(comm_, parts_, ids_, ids_, "contact plans");
   halo_ = ExchangePlan::from_owners(comm_, halo_rank, places, every, "contact iteration");
 }

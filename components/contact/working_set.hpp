@@ -95,6 +95,8 @@ class WorkingSet {
   const ExchangePlan& halo() const { return halo_; }
   /// Whether any rank has a pair.
   bool any() const { return any_; }
+  /// Pairs on this rank that were left out since they face the same way.
+  std::int64_t turned_away() const { return turned_away_; }
   /// J: of pairs that were remembered and are no more, on this rank, since the last `build`.
   std::span<const double> lost() const { return lost_; }
   /// Counted work of enforcement per node of the set, for the next partition.
@@ -103,7 +105,11 @@ class WorkingSet {
 
  private:
   void gather_records(const CandidateSearch& search, const PairFilter& filter);
+  struct FaceRecord;
+  FaceRecord record_of(const SurfaceFace& face, const Vec3& normal) const;
+  bool may_press(const CandidateSearch& search, LocalIndex node, const Vec3& normal, bool two_sided) const;
   void add_node_faces(const CandidateSearch& search);
+  void add_pair(const ItemHandle& home, const FaceRecord& face);
   void add_edges(const CandidateSearch& search);
   void collect_work();
   void remember(std::span<const std::pair<PairKey, PairMemory>> restored);
@@ -116,6 +122,7 @@ class WorkingSet {
   SearchDecomposition decomposition_;
   Rcb rcb_;
   bool any_ = false;
+  std::int64_t turned_away_ = 0;
   std::vector<PairRecord> records_;                       // at the homes of first nodes, ascending by key
   std::vector<std::pair<PairKey, PairMemory>> memories_;  // of the pairs before, likewise
   std::vector<double> lost_;
