@@ -144,6 +144,9 @@ void Enforcement::connect(std::span<const Constraint> constraints) {
   });
   for (std::size_t n = nodes; n > 0; --n) first_[n] = first_[n - 1];
   first_[0] = 0;
+  used_.clear();
+  for (std::size_t n = 0; n < nodes; ++n)
+    if (first_[n] < first_[n + 1]) used_.push_back(n);
 }
 
 double Enforcement::weight(const NodeState& node, std::span<const Body> bodies) const {
@@ -162,7 +165,7 @@ void Enforcement::precondition(std::span<Constraint> constraints, std::span<cons
                                std::span<const Body> bodies, std::span<const Release> chosen) {
   const auto counts = [&](std::size_t q) { return chosen.empty() || chosen[q].energy > 0; };
   crowd_.assign(nodes.size(), 0.0);
-  for (std::size_t n = 0; n < nodes.size(); ++n)
+  for (const std::size_t n : used_)
     for (std::int32_t k = first_[n]; k < first_[n + 1]; ++k) {
       const Use use = uses_[static_cast<std::size_t>(k)];
       const auto q = static_cast<std::size_t>(use.constraint);
@@ -206,7 +209,7 @@ void Enforcement::precondition(std::span<Constraint> constraints, std::span<cons
 template <typename Impulse>
 void Enforcement::move(std::span<const Constraint> constraints, std::span<const NodeState> nodes,
                        std::vector<Body>& bodies, Impulse impulse) {
-  for (std::size_t n = 0; n < nodes.size(); ++n) {
+  for (const std::size_t n : used_) {
     Vec3 sum{};
     for (std::int32_t k = first_[n]; k < first_[n + 1]; ++k) {
       const Use use = uses_[static_cast<std::size_t>(k)];
@@ -225,8 +228,8 @@ void Enforcement::move(std::span<const Constraint> constraints, std::span<const 
         sums[6 * static_cast<std::size_t>(body) + 3 + c].add(l[c]);
       }
     };
-    for (std::size_t n = 0; n < nodes.size(); ++n)
-      if (nodes[n].mobility.body >= 0 && set_.sums(static_cast<LocalIndex>(n)))
+    for (const std::size_t n : used_)
+      if (nodes[n].mobility.body >= 0)
         add(nodes[n].mobility.body, sum_[n],
             nodes[n].place - bodies[static_cast<std::size_t>(nodes[n].mobility.body)].state.pivot);
     for (const Constraint& q : constraints)
@@ -290,7 +293,9 @@ Enforcement::Report Enforcement::solve(std::span<Constraint> constraints, std::s
              return nodes[static_cast<std::size_t>(n)].mobility.body >= 0;
            });
   }));
-  velocity_.resize(nodes.size()), sum_.resize(nodes.size());
+  velocity_.resize(nodes.size());
+  for (std::size_t n = 0; n < nodes.size(); ++n) velocity_[n] = nodes[n].velocity;
+  sum_.assign(nodes.size(), Vec3{});
   connect(constraints);
   precondition(constraints, nodes, bodies, {});
   for (Constraint& q : constraints) q.extrapolated = q.impulse;
@@ -309,7 +314,7 @@ Enforcement::Report Enforcement::solve(std::span<Constraint> constraints, std::s
     if (greatest[0] <= tolerance * greatest[1]) break;
   }
   move(constraints, nodes, bodies, [](const Constraint& q) { return q.impulse; });
-  for (std::size_t n = 0; n < nodes.size(); ++n)
+  for (const std::size_t n : used_)
     set_.work()[n] += static_cast<float>(report.iterations * (first_[n + 1] - first_[n]));
   return report;
 }

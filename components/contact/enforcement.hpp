@@ -115,6 +115,7 @@ class Enforcement {
 
   Communicator comm_;
   WorkingSet& set_;
+  std::vector<std::size_t> used_;    // nodes that this rank sums for and that are in some constraint
   std::vector<std::int32_t> first_;  // of each node of the set: its uses begin here
   struct Use {
     std::int32_t constraint, slot;
