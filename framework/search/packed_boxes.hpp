@@ -72,12 +72,12 @@ class PackedBoxes {
   }
   /// Bit k is set if the sign of lane k is, as in lanes that are all ones.
   template <typename Lanes>
-  static unsigned bits(const Lanes& lanes) {
+  static unsigned bits(const Lanes& signs) {
 #ifdef __AVX__
-    return static_cast<unsigned>(__builtin_ia32_movmskps256(std::bit_cast<Eight>(lanes)));
+    return static_cast<unsigned>(__builtin_ia32_movmskps256(std::bit_cast<Eight>(signs)));
 #else
     unsigned mask = 0;
-    for (int k = 0; k < fan_out; ++k) mask |= std::signbit(std::bit_cast<Eight>(lanes)[k]) ? 1u << k : 0u;
+    for (int k = 0; k < fan_out; ++k) mask |= std::signbit(std::bit_cast<Eight>(signs)[k]) ? 1u << k : 0u;
     return mask;
 #endif
   }
