@@ -82,6 +82,7 @@ class Contact final : public Interaction {
   void list_overlaps();
   void push_apart();
   void keep_overlaps();
+  void judge_buried();
   // Search.
   void search(double time, double dt);
   void renew(double time, double dt);

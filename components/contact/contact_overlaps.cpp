@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 
+#include "components/contact/buried.hpp"
 #include "components/contact/contact.hpp"
 
 namespace tenon {
@@ -49,8 +50,42 @@ void Contact::settle_overlaps() {
         fmt::format("{}: {} overlaps are not quite removed after {} passes; the rest goes in the first "
                     "steps",
                     name(), left, greatest_passes));
+  judge_buried();
   make_groups();
   any_constraint_ = false;
+}
+
+// What is so deep inside another body that no surface is near, or coincides with it, cannot be told where to go.
+void Contact::judge_buried() {
+  std::vector<char> known(surfaces_.nodes().size());  // overlaps that are listed already
+  if (set_.any()) {
+    std::vector<double> seen(state_.size()), at_home(set_.busy().size());
+    for (const Constraint& q : constraints_)
+      for (std::size_t k = 0; k < static_cast<std::size_t>(q.nodes); ++k) seen[static_cast<std::size_t>(q.node[k])] = 1;
+    set_.results().reverse<double>(seen, at_home);
+    for (std::size_t b = 0; b < at_home.size(); ++b)
+      if (at_home[b] > 0) known[static_cast<std::size_t>(set_.busy()[b])] = 1;
+  }
+  const auto count = static_cast<std::size_t>(surface_count_);
+  const auto allowed = [&](std::int32_t a, std::int32_t b) {
+    return rules_[static_cast<std::size_t>(a) * count + static_cast<std::size_t>(b)].ignore;
+  };
+  const std::vector<Buried> buried = find_buried(comm_, surfaces_, options_.decomposition, known, allowed);
+  if (!comm_.any(!buried.empty())) return;
+  std::string text;
+  for (std::size_t begin = 0, end = 0; begin < buried.size(); begin = end) {
+    const Buried& one = buried[begin];
+    while (end < buried.size() && buried[end].first == one.first && buried[end].second == one.second) ++end;
+    text += fmt::format("{}{} and {} at {} places, one at ({:.6g}, {:.6g}, {:.6g})", text.empty() ? "" : "; ",
+                        surface_name(one.first), surface_name(one.second), end - begin, one.place[0], one.place[1],
+                        one.place[2]);
+  }
+  comm_.broadcast(text);
+  text = fmt::format("{}: bodies are inside each other, or coincide, deeper than surfaces can part them: {}", name(),
+                     text);
+  if (options_.initial_overlaps != ContactOptions::InitialOverlaps::keep)
+    throw Error(ExitCode::geometry, text + "; mend the mesh, or let these two not touch (pairs: ignore: true)");
+  warnings_.push_back(text + "; there they do not touch");
 }
 
 /// Constraints of the pairs that overlap where everything stands.

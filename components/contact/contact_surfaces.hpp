@@ -107,6 +107,11 @@ class ContactSurfaces {
   /// Where a node is among nodes(), or no_index.
   LocalIndex find_node(GlobalId id) const;
   GlobalId node_count() const { return node_offsets_.back(); }
+  /// Over all parties: id of a local node of a party, and number of a party's first surface.
+  GlobalId node_id(std::size_t party, LocalIndex node) const {
+    return node_offsets_[party] + parties_[party]->contact_mesh().node_ids[static_cast<std::size_t>(node)];
+  }
+  std::int32_t first_surface(std::size_t party) const { return surface_offsets_[party]; }
   std::int64_t memory() const;
 
  private:

@@ -26,12 +26,12 @@ bool runs(const ContactScene& scene, int steps) {
 }
 
 TEST(ContactFaults, CoincidentFaces) {
-  // The same cube twice in the same place, with shells in the same plane beside: every face is there twice.
+  // The same cube twice in the same place: every face is there twice.
   ContactScene s;
   const MeshData cube = brick({0, 0, 0}, {0.02, 0.02, 0.02}, {2, 2, 2});
   s.mesh = beside({{"one", cube}, {"two", cube}});
   s.mechanics.blocks = {of_material("one", solid()), of_material("two", solid())};
-  runs(s, 20);
+  EXPECT_FALSE(runs(s, 20));
 }
 
 TEST(ContactFaults, FacesThatTouchExactly) {
@@ -50,7 +50,7 @@ TEST(ContactFaults, ABodyInsideAnother) {
                    {"small", brick({0.045, 0.045, 0.045}, {0.055, 0.055, 0.055}, {2, 2, 2})}});
   s.mechanics.blocks = {of_material("large", solid()), of_material("small", solid())};
   s.mechanics.initial_velocities = {moving("small", {1, 0, 0})};
-  runs(s, 50);
+  EXPECT_FALSE(runs(s, 50));
 }
 
 TEST(ContactFaults, ABodyInTheHollowOfAnother) {
