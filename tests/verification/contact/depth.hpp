@@ -69,6 +69,47 @@ inline double depth_below(const std::vector<Vec3>& points, const std::vector<Tri
   return deepest;
 }
 
+/// Present corners of the shells of this rank.
+inline std::vector<std::array<Vec3, 4>> shells_of(const Mechanics& body, const std::string& shells) {
+  std::vector<std::array<Vec3, 4>> faces;
+  const ElementBlock& block = *body.mesh().find_block(shells);
+  for (LocalIndex e = 0; e < block.size(); ++e)
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (k == 0) faces.emplace_back();
+      faces.back()[k] = body.current_coordinates()[static_cast<std::size_t>(block.nodes(e)[k])];
+    }
+  return faces;
+}
+
+/// The same below bilinear faces, however warped: where the vertical through a point meets the face, by Newton from
+/// nine places.
+inline double depth_below(const std::vector<Vec3>& points, const std::vector<std::array<Vec3, 4>>& faces) {
+  double deepest = -1e300;
+  for (const std::array<Vec3, 4>& x : faces) {
+    const Vec3 mean = 0.25 * (x[0] + x[1] + x[2] + x[3]), a = 0.25 * (x[1] + x[2] - x[0] - x[3]),
+               b = 0.25 * (x[2] + x[3] - x[0] - x[1]), c = 0.25 * (x[0] + x[2] - x[1] - x[3]);
+    for (const Vec3& p : points) {
+      bool near = true;  // in the upright box about the face
+      for (std::size_t d = 0; d < 2; ++d)
+        near = near && std::abs(p[d] - mean[d]) <= std::abs(a[d]) + std::abs(b[d]) + std::abs(c[d]);
+      for (int start = 0; near && start < 9; ++start) {
+        double r = start % 3 - 1, s = start / 3 - 1;
+        Vec3 off{};
+        for (int i = 0; i < 30; ++i) {
+          off = p - (mean + r * a + s * b + (r * s) * c);
+          const Vec3 dr = a + s * c, ds = b + r * c;
+          const double det = dr[0] * ds[1] - dr[1] * ds[0];
+          if (det == 0) break;
+          r += (off[0] * ds[1] - off[1] * ds[0]) / det, s += (dr[0] * off[1] - dr[1] * off[0]) / det;
+        }
+        if (std::abs(r) <= 1 && std::abs(s) <= 1 && std::hypot(off[0], off[1]) < 1e-9 * norm(x[2] - x[0]))
+          deepest = std::max(deepest, -off[2]);
+      }
+    }
+  }
+  return deepest;
+}
+
 /// Distance of a point from a triangle, m [Ericson 2005, 5.1.5].
 inline double distance(const Vec3& p, const Triangle& t) {
   const Vec3 ab = t[1] - t[0], ac = t[2] - t[0], ap = p - t[0];

@@ -48,5 +48,9 @@ TEST(EdgeToEdge, EdgesMeetBetweenNodes) {
   cross_bars(41);
 }
 
+TEST(EdgeToEdge, EdgesMeetAtNodes) {
+  cross_bars(40);
+}
+
 }  // namespace
 }  // namespace tenon::testing

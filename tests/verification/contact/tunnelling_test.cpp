@@ -40,11 +40,12 @@ ContactScene scene(const Shot& shot) {
   return s;
 }
 
-/// Greatest depth of nodes of the cube below the middle of the plate: where none goes through, it is negative.
+/// Greatest depth of nodes of the cube below the middle of the plate: half a thickness above it where they touch.
 double deepest(ContactRun& run) {
-  return depth_below(nodes_of(run.body(), "cube_all"), triangles_of(run.body(), "", "plate"));
+  return depth_below(nodes_of(run.body(), "cube_all"), shells_of(run.body(), "plate"));
 }
 
+/// Speed of the cube along the normal of the plate at the end, m/s.
 double exit_speed(const Shot& shot) {
   ContactRun run(scene(shot));
   const double kinetic = run.row("kinetic_energy");
@@ -53,21 +54,23 @@ double exit_speed(const Shot& shot) {
   const double v = -run.velocity("cube")[2];
   std::printf(
       "C09 %.0f m/s, gap %.2f mm, %.0f degrees, step %.2g of the usual: %.2f m/s after %lld steps, %.2f mm a step, "
-      "deepest %.3f mm, impulse %.4f N s, contact took %.2e of the kinetic energy\n",
+      "deepest %.4f mm, impulse %.4f N s, contact took %.2e of the kinetic energy\n",
       shot.speed, 1e3 * shot.gap, shot.angle * 180 / std::numbers::pi, shot.share, v,
       static_cast<long long>(run.simulation().steps()), 1e3 * shot.speed * run.simulation().dt(), 1e3 * through,
       norm(run.impulse("plate_cube")), run.row("contact_dissipation") / kinetic);
   EXPECT_GT(norm(run.impulse("plate_cube")), 0);
-  EXPECT_LE(through, 0);
+  EXPECT_LE(through, -0.49 * thickness);  // all stay above the upper side, but for a hundredth of the thickness
   expect_conserved(run);
   return v;
 }
 
+/// With a tenth of the step the cube leaves as fast, to 2 %; of a glancing shot to 2 % of what it brings along the
+/// normal, of which little is left.
 void compare(Shot shot) {
   const double v = exit_speed(shot);
   shot.share = 0.1;
   const double exact = exit_speed(shot);
-  EXPECT_NEAR(v, exact, 0.02 * std::abs(exact));
+  EXPECT_NEAR(v, exact, 0.02 * (shot.angle == 0 ? std::abs(exact) : shot.speed * std::cos(shot.angle)));
 }
 
 TEST(Tunnelling, At250MetresPerSecond) {
@@ -76,6 +79,10 @@ TEST(Tunnelling, At250MetresPerSecond) {
 
 TEST(Tunnelling, At1000MetresPerSecond) {
   compare({1000});
+}
+
+TEST(Tunnelling, At3000MetresPerSecond) {
+  compare({3000});
 }
 
 TEST(Tunnelling, TouchingAtTheStart) {
@@ -90,6 +97,12 @@ TEST(Tunnelling, OverlappingAtTheStart) {
   EXPECT_NEAR(kinetic, exact, 0.01 * exact);
   EXPECT_LE(std::abs(run.row("internal_energy")), 0.01 * kinetic);
   compare({1000, -1e-4});
+}
+
+TEST(Tunnelling, Glancing) {
+  Shot shot;
+  shot.angle = 89 * std::numbers::pi / 180, shot.gap = 0.1e-3, shot.travel = 0.5e-3;
+  compare(shot);
 }
 
 // Nothing passes at any speed for which the step is stable: one step may carry the cube far beyond the plate.

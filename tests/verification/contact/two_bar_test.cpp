@@ -91,6 +91,12 @@ TEST(TwoBars, NonMatchingFaces) {
   check(bars);
 }
 
+TEST(TwoBars, NonMatchingFacesWithBulkViscosity) {
+  TwoBars bars;
+  bars.left = {3, 3}, bars.right = {4, 4}, bars.viscosity = 0.06;
+  check(bars);
+}
+
 TEST(TwoBars, NonMatchingFacesAtASkewAngle) {
   TwoBars bars;
   bars.left = {3, 3}, bars.right = {4, 4};
