@@ -56,14 +56,24 @@ double CandidateSearch::used(double dt) const {
   if (!sought_) return infinity;
   double greatest = 0;
   bool lost = false;
-  const Vec3 common = (since_ + dt) * common_;
+  const Vec3 before = since_ * common_, step = dt * common_;
+  constexpr std::ptrdiff_t ahead = 16;
   auto next = sought_nodes_.begin();
   for (std::size_t p = 0; p < surfaces_.parties().size(); ++p) {
     const std::span<const Vec3> x = surfaces_.parties()[p]->contact_positions();
     const std::span<const Vec3> v = surfaces_.parties()[p]->contact_velocities();
     for (; next != sought_nodes_.end() && next->party == static_cast<std::int32_t>(p); ++next) {
       const auto i = static_cast<std::size_t>(next->node);
-      const double share = squared((x[i] - next->place) + (dt * v[i] - common)) * next->inverse_square;
+      if (sought_nodes_.end() - next > ahead) {  // nodes of a surface are scattered over a body
+        const SoughtNode& later = next[ahead];
+        if (later.party == next->party) {
+          __builtin_prefetch(&x[static_cast<std::size_t>(later.node)]);
+          __builtin_prefetch(&v[static_cast<std::size_t>(later.node)]);
+        }
+      }
+      const Vec3 moved = x[i] - next->place - before;
+      // At the end of the step and at its start; in this order what is not a number stays so.
+      const double share = std::max(squared(moved + (dt * v[i] - step)), squared(moved)) * next->inverse_square;
       greatest = std::max(greatest, share);
       lost = lost || !(share < infinity);  // what is not a number has left its skin, too
     }
@@ -116,7 +126,7 @@ void CandidateSearch::make_boxes() {
     node_boxes_[n].inflate(skin_[n] + nodes[n].radius);
   }
   face_boxes_.assign(faces.size(), Box{});
-  planes_.resize(faces.size()), face_normal_.resize(faces.size());
+  planes_.resize(faces.size()), face_normal_.resize(faces.size()), face_skin_.resize(faces.size());
   for (std::size_t f = 0; f < faces.size(); ++f) {
     const std::span<const Vec3> x = surfaces_.parties()[static_cast<std::size_t>(faces[f].party)]->contact_positions();
     std::array<Vec3, 4> corner{};
@@ -127,6 +137,7 @@ void CandidateSearch::make_boxes() {
       face_boxes_[f].add(corner[i]);
       skin = std::max(skin, corner_skin_[static_cast<std::size_t>(surfaces_.corner_slot(f, k))]);
     }
+    face_skin_[f] = skin;
     face_boxes_[f].inflate(skin + faces[f].radius);
     const bool triangle = faces[f].count() == 3;
     planes_[f].normal = unit(triangle ? cross(corner[1] - corner[0], corner[2] - corner[0])
@@ -135,6 +146,15 @@ void CandidateSearch::make_boxes() {
     planes_[f].centre = triangle ? (1.0 / 3) * (corner[0] + corner[1] + corner[2])
                                  : 0.25 * (corner[0] + corner[1] + corner[2] + corner[3]);
   }
+}
+
+FaceShape CandidateSearch::sought_face(LocalIndex face) const {
+  const SurfaceFace& of = surfaces_.faces()[static_cast<std::size_t>(face)];
+  const std::span<const Vec3> x = surfaces_.parties()[static_cast<std::size_t>(of.party)]->contact_positions();
+  FaceShape shape{of.count(), {}};
+  for (int k = 0; k < of.count(); ++k)
+    shape.x[static_cast<std::size_t>(k)] = x[static_cast<std::size_t>(of.nodes[static_cast<std::size_t>(k)])];
+  return shape;
 }
 
 // Rims of shells, edges between shells that meet at an angle, and edges of solids that stand out.
@@ -166,12 +186,12 @@ void CandidateSearch::find_sharp_edges() {
 }
 
 std::int64_t CandidateSearch::memory() const {
-  return static_cast<std::int64_t>((node_boxes_.capacity() + face_boxes_.capacity() + edge_boxes_.capacity()) *
-                                       sizeof(Box) +
-                                   sought_nodes_.capacity() * sizeof(SoughtNode) + outward_.capacity() * sizeof(Vec3) +
-                                   (planes_.capacity() + edge_planes_.capacity()) * sizeof(FacePlane) +
-                                   (skin_.capacity() + corner_skin_.capacity()) * sizeof(double) +
-                                   (node_faces_.capacity() + edge_edges_.capacity()) * sizeof(BoxPair));
+  return static_cast<std::int64_t>(
+      (node_boxes_.capacity() + face_boxes_.capacity() + edge_boxes_.capacity()) * sizeof(Box) +
+      sought_nodes_.capacity() * sizeof(SoughtNode) + outward_.capacity() * sizeof(Vec3) +
+      (planes_.capacity() + edge_planes_.capacity()) * sizeof(FacePlane) +
+      (skin_.capacity() + corner_skin_.capacity() + face_skin_.capacity()) * sizeof(double) +
+      (node_faces_.capacity() + edge_edges_.capacity()) * sizeof(BoxPair));
 }
 
 }  // namespace tenon::contact

@@ -9,6 +9,7 @@
 
 #include "components/contact/contact_options.hpp"
 #include "components/contact/contact_surfaces.hpp"
+#include "components/contact_geometry/closest_point.hpp"
 
 namespace tenon::contact {
 
@@ -22,8 +23,8 @@ class CandidateSearch {
   /// Collective. Finds candidates for steps of about `dt` from the present places; node velocities as the parties show
   /// them.
   void run(double dt);
-  /// Collective. How much of their skins the nodes have used up at the end of a step of length dt with the velocities
-  /// that the parties show now: up to 1 the candidates are still all. Infinite before the first search.
+  /// Collective. How much of their skins the nodes have used up during a step of length dt with the velocities that the
+  /// parties show now, its start included: up to 1 the candidates are still all. Infinite before the first search.
   double used(double dt) const;
   /// Local. A search is needed.
   void forget() { sought_ = false; }
@@ -43,8 +44,12 @@ class CandidateSearch {
   /// Normals of the faces of this rank, and of those around its nodes (ContactSurfaces::around_nodes), when sought.
   std::span<const Vec3> face_normals() const { return face_normal_; }
   const std::vector<Vec3>& normals_around() const { return around_; }
-  /// Of nodes of this rank, m.
+  /// Of nodes of this rank, m; and of its faces: the greatest of their corners.
   std::span<const double> skins() const { return skin_; }
+  std::span<const double> face_skins() const { return face_skin_; }
+  /// Local, during the search: present place of a node of this rank, m; and a face of this rank.
+  const Vec3& sought_place(LocalIndex node) const { return sought_nodes_[static_cast<std::size_t>(node)].place; }
+  FaceShape sought_face(LocalIndex face) const;
   /// Counted work of the last searches on this rank: box tests.
   std::int64_t work() const { return face_search_.work().tests + edge_search_.work().tests; }
   /// Velocity that all nodes have in common, m/s: their skins move with it. And the time since the search, s.
@@ -79,7 +84,7 @@ class CandidateSearch {
     std::int32_t party;
   };
   std::vector<SoughtNode> sought_nodes_;
-  std::vector<double> skin_, corner_skin_, far_skin_;
+  std::vector<double> skin_, corner_skin_, far_skin_, face_skin_;
   std::vector<Vec3> face_normal_, around_;
   std::vector<FacePlane> planes_, edge_planes_;
   std::vector<Box> node_boxes_, face_boxes_, edge_boxes_;

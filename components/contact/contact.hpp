@@ -99,6 +99,8 @@ class Contact final : public Interaction {
   void make_groups();
   void touch_pairs(double time, double dt);
   double fastest(std::span<const Vec3> velocity, double time, double dt) const;
+  double near_of(const contact::WorkingPair& pair) const;
+  void let_sleep(std::size_t pair, double apart, double dt);
   double least_distance(const contact::WorkingPair& pair) const;
   void touch_faces(std::size_t begin, std::size_t end, double dt);
   void touch_edges(std::size_t pair, double dt);

@@ -5,6 +5,7 @@
 
 #include "components/contact/contact.hpp"
 #include "components/contact_geometry/choose_touches.hpp"
+#include "components/contact_geometry/closest_point.hpp"
 #include "components/contact_geometry/edge_touch.hpp"
 
 namespace tenon {
@@ -87,11 +88,14 @@ void Contact::touch_pairs(double time, double dt) {
     if (again_ && !is_moved(begin, end)) continue;
     for (std::size_t q = begin; q < end; ++q)
       if (wake_[q] <= way_ + reach) {
-        const double apart = least_distance(set_.pairs()[q]);
-        wake_[q] = apart > reach && set_.pairs()[q].memory.empty() ? way_ + apart : 0.0;
+        wake_[q] = 0;
+        if (set_.pairs()[q].memory.empty()) let_sleep(q, least_distance(set_.pairs()[q]), dt);
       }
-    group_wake_[g] = *std::min_element(wake_.begin() + static_cast<std::ptrdiff_t>(begin),
-                                       wake_.begin() + static_cast<std::ptrdiff_t>(end));
+    const auto wakes = [&] {
+      return *std::min_element(wake_.begin() + static_cast<std::ptrdiff_t>(begin),
+                               wake_.begin() + static_cast<std::ptrdiff_t>(end));
+    };
+    group_wake_[g] = wakes();
     if (group_wake_[g] > 0) continue;
     const std::int64_t kind = set_.pairs()[begin].key.kind;
     if (kind == 0)
@@ -102,6 +106,7 @@ void Contact::touch_pairs(double time, double dt) {
       touch_rigid(begin, time, dt);
     else
       touch_edges(begin, dt);
+    group_wake_[g] = wakes();
   }
 }
 
@@ -121,7 +126,18 @@ double Contact::fastest(std::span<const Vec3> velocity, double time, double dt) 
   return chords * std::sqrt(squared);
 }
 
-/// How far the two are from being of interest, at least, at the start of the step, m.
+/// Within this distance a pair is of interest, m.
+double Contact::near_of(const WorkingPair& pair) const {
+  return std::max(pair.clearance, 0.0) + pair.margin + pair.depth;
+}
+
+/// A pair that is `apart` (m) from being of interest when the step begins need not be looked at until the ways of all
+/// nodes have been as long.
+void Contact::let_sleep(std::size_t pair, double apart, double dt) {
+  wake_[pair] = apart > 2 * dt * fastest_ ? way_ + apart : 0.0;
+}
+
+/// How far the two are from being of interest, at least and by a look at their balls, at the start of the step, m.
 double Contact::least_distance(const WorkingPair& pair) const {
   const auto place = [&](std::int32_t k) -> const Vec3& {
     return state_[static_cast<std::size_t>(pair.node[static_cast<std::size_t>(k)])].place;
@@ -137,7 +153,7 @@ double Contact::least_distance(const WorkingPair& pair) const {
     }
     return std::sqrt(squared);
   };
-  const double near = std::max(pair.clearance, 0.0) + pair.margin + pair.depth;
+  const double near = near_of(pair);
   if (pair.key.kind == 1) return rigid_[static_cast<std::size_t>(pair.key.ids[1])].distance(place(0)) - near;
   const std::int32_t split = pair.key.kind == 0 ? 1 : 2;
   Vec3 a, b;
@@ -167,8 +183,10 @@ void Contact::touch_faces(std::size_t begin, std::size_t end, double dt) {
     }
     Touch touch;
     if (!touch_face(state_[n].place, end_[n], start, finish, pair.clearance, pair.depth, pair.two_sided, pair.margin,
-                    touch))
+                    touch)) {
+      if (pair.memory.empty()) let_sleep(q, closest_point(start, state_[n].place).distance - near_of(pair), dt);
       continue;
+    }
     touches_.push_back(touch), touch_nodes_.push_back(ids), touch_ids_.push_back(pair.key.ids[1]);
     touch_pairs_.push_back(q);
   }

@@ -16,7 +16,7 @@ namespace {
 // Of the skins, as it will be at the end of the coming step if the nodes go on as in the last one. A search in good
 // time, before a step begins, also remembers velocities of before the kick; one in the middle of a
 // step is a way out for sudden motion.
-constexpr double in_good_time = 0.8;
+constexpr double in_good_time = 0.9;
 constexpr double greatest_widening = 64;
 constexpr int searches_before_widening = 20;
 

@@ -76,7 +76,8 @@ struct WorkingSet::FaceRecord {
   std::array<NodeRef, 4> corners;
   Vec3 normal;
   std::int32_t count, surface, two_sided, party;
-  double radius, depth;
+  double radius, depth, skin;
+  std::array<Vec3, 4> places;  // of the corners when sought, m
 };
 
 WorkingSet::WorkingSet(const Communicator& comm, const ContactSurfaces& surfaces, SearchDecomposition decomposition)
@@ -144,12 +145,14 @@ void WorkingSet::gather_records(const CandidateSearch& search, const PairFilter&
   records_.resize(kept);
 }
 
-WorkingSet::FaceRecord WorkingSet::record_of(const SurfaceFace& face, const Vec3& normal) const {
+WorkingSet::FaceRecord WorkingSet::record_of(const CandidateSearch& search, LocalIndex index) const {
+  const SurfaceFace& face = surfaces_.faces()[static_cast<std::size_t>(index)];
   FaceRecord record;
   record.id = face.id, record.count = face.count(), record.surface = face.surface;
   record.two_sided = face.two_sided ? 1 : 0, record.party = face.party;
   record.radius = face.radius, record.depth = reliable_depth * face.depth, record.behind = face.behind;
-  record.normal = normal;
+  record.normal = search.face_normals()[static_cast<std::size_t>(index)];
+  record.skin = search.face_skins()[static_cast<std::size_t>(index)], record.places = search.sought_face(index).x;
   for (std::size_t k = 0; k < 4; ++k) record.corners[k] = reference(face.corners[k]);
   return record;
 }
@@ -175,20 +178,24 @@ void WorkingSet::add_node_faces(const CandidateSearch& search) {
     }
     // Most of what is near a node on its own surface is left out before anything is copied.
     const auto f = static_cast<std::size_t>(pair.second.index);
-    const GlobalId node = surfaces_.nodes()[static_cast<std::size_t>(pair.first.index)].id;
-    const auto is_node = [&](const Corner& corner) { return corner.id == node; };
-    if (std::ranges::any_of(faces[f].corners, is_node) ||
-        std::ranges::find(faces[f].behind, node) != faces[f].behind.end())
+    const SurfaceNode& node = surfaces_.nodes()[static_cast<std::size_t>(pair.first.index)];
+    if (faces[f].party == node.party && (std::ranges::find(faces[f].nodes, node.node) != faces[f].nodes.end() ||
+                                         std::ranges::find(faces[f].behind, node.id) != faces[f].behind.end()))
       continue;
-    if (may_press(search, pair.first.index, search.face_normals()[f], faces[f].two_sided))
-      add_pair(pair.first, record_of(faces[f], search.face_normals()[f]));
+    if (!may_press(search, pair.first.index, search.face_normals()[f], faces[f].two_sided)) {
+      ++turned_away_;
+      continue;
+    }
+    const FaceRecord face = record_of(search, pair.second.index);
+    if (may_meet(search, pair.first.index, face))
+      add_pair(pair.first, face);
     else
       ++turned_away_;
   }
   if (comm_.size() == 1) return;
 
   std::vector<FaceRecord> own(faces.size());
-  for (std::size_t f = 0; f < faces.size(); ++f) own[f] = record_of(faces[f], search.face_normals()[f]);
+  for (std::size_t f = 0; f < faces.size(); ++f) own[f] = record_of(search, static_cast<LocalIndex>(f));
   std::vector<int> owners(far.size());
   std::vector<LocalIndex> index(far.size()), into(far.size());
   for (std::size_t i = 0; i < far.size(); ++i)
@@ -202,7 +209,8 @@ void WorkingSet::add_node_faces(const CandidateSearch& search) {
     const auto is_node = [&](const NodeRef& corner) { return corner.id == node; };
     if (std::ranges::any_of(face.corners, is_node) || std::ranges::find(face.behind, node) != face.behind.end())
       continue;
-    if (may_press(search, far[i].first.index, face.normal, face.two_sided != 0))
+    if (may_press(search, far[i].first.index, face.normal, face.two_sided != 0) &&
+        may_meet(search, far[i].first.index, face))
       add_pair(far[i].first, face);
     else
       ++turned_away_;
@@ -214,6 +222,16 @@ bool WorkingSet::may_press(const CandidateSearch& search, LocalIndex node, const
   const std::span<const Vec3> around = surfaces_.normals_of(search.normals_around(), static_cast<std::size_t>(node));
   return std::ranges::any_of(around, [&](const Vec3& of_node) { return faces_against(of_node, normal); }) ||
          is_pointed(around);
+}
+
+/// Boxes overlap beside faces that lie across the axes: what is farther apart than both skins reach is left out. Places
+/// of a face move by its skin at most, being means of its corners.
+bool WorkingSet::may_meet(const CandidateSearch& search, LocalIndex index, const FaceRecord& face) const {
+  const SurfaceNode& node = surfaces_.nodes()[static_cast<std::size_t>(index)];
+  const double near = node.radius + face.radius + near_share * node.size;
+  const double reach = search.skins()[static_cast<std::size_t>(index)] + face.skin + std::max(near, face.depth);
+  constexpr double round_off = 1 + 1e-9;
+  return !(closest_point({face.count, face.places}, search.sought_place(index)).distance > round_off * reach);
 }
 
 void WorkingSet::add_pair(const ItemHandle& home, const FaceRecord& face) {

@@ -95,7 +95,7 @@ class WorkingSet {
   const ExchangePlan& halo() const { return halo_; }
   /// Whether any rank has a pair.
   bool any() const { return any_; }
-  /// Pairs on this rank that were left out since they face the same way.
+  /// Pairs on this rank that were left out since they face the same way, or are too far apart to meet.
   std::int64_t turned_away() const { return turned_away_; }
   /// J: of pairs that were remembered and are no more, on this rank, since the last `build`.
   std::span<const double> lost() const { return lost_; }
@@ -106,8 +106,9 @@ class WorkingSet {
  private:
   void gather_records(const CandidateSearch& search, const PairFilter& filter);
   struct FaceRecord;
-  FaceRecord record_of(const SurfaceFace& face, const Vec3& normal) const;
+  FaceRecord record_of(const CandidateSearch& search, LocalIndex face) const;
   bool may_press(const CandidateSearch& search, LocalIndex node, const Vec3& normal, bool two_sided) const;
+  bool may_meet(const CandidateSearch& search, LocalIndex node, const FaceRecord& face) const;
   void add_node_faces(const CandidateSearch& search);
   void add_pair(const ItemHandle& home, const FaceRecord& face);
   void add_edges(const CandidateSearch& search);
