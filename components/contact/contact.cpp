@@ -135,7 +135,19 @@ void Contact::solve(double time, double dt, double kick) {
   release();
 }
 
-// Pairs that pressed before and no longer do give back what their impact took.
+namespace {
+
+/// Rigid bodies with the linear velocities that their impulses give them.
+void set_pushed(const std::vector<Body>& bodies, std::vector<Body>& pushed) {
+  pushed = bodies;
+  for (Body& body : pushed)
+    for (std::size_t c = 0; c < 3; ++c) body.state.velocity[c] += body.state.inverse_mass[c] * body.impulse.linear[c];
+}
+
+}  // namespace
+
+// Pairs that pressed before and no longer do give back what their impact took. The impulses p of all others work more
+// by what a release moves their nodes; p . C W C^T r = r . (u - u*), which the release pays for as well.
 void Contact::release() {
   released_.assign(constraints_.size(), {});
   bool any = false;
@@ -143,21 +155,22 @@ void Contact::release() {
     const Constraint& q = constraints_[k];
     const PairMemory& memory = set_.pairs()[static_cast<std::size_t>(q.pair)].memory;
     if (!(memory.energy > 0) || dot(q.impulse, q.normal) > 0) continue;
-    released_[k] = {memory.energy,
-                    dot(relative_velocity(q, former_, former_bodies_, q.former_surface_velocity), q.normal)};
+    const Vec3 former = relative_velocity(q, former_, former_bodies_, q.former_surface_velocity);
+    const Vec3 free = relative_velocity(q, predicted_, bodies_, q.surface_velocity);
+    released_[k] = {memory.energy, dot(former, q.normal), dot(free, q.normal)};
     any = true;
   }
+  const std::span<const Vec3> velocity = enforcement_.velocities();
+  solved_.assign(velocity.begin(), velocity.end());
+  set_pushed(bodies_, solved_bodies_);
   if (comm_.any(any)) enforcement_.release(constraints_, state_, bodies_, released_);
 }
 
-// The work of each pair by the velocities before the kick and after contact, which is what the parties book for their
-// nodes: what is not friction is stored, as long as it can be, or lost.
+// The work of each pair by the velocities before the kick and after contact, which together is what the parties book
+// for their nodes; that of releases on the nodes of others counts as theirs. What is not friction is stored, as long as
+// it can be, or lost.
 void Contact::book(double dt, double kick) {
-  std::vector<Body> bodies_after = bodies_;
-  for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    for (std::size_t c = 0; c < 3; ++c)
-      bodies_after[b].state.velocity[c] += bodies_[b].state.inverse_mass[c] * bodies_[b].impulse.linear[c];
-  }
+  set_pushed(bodies_, pushed_bodies_);
   active_ = 0;
   slid_.resize(constraints_.size()), heat_.resize(constraints_.size());
   for (PairTotals& total : totals_)
@@ -167,13 +180,15 @@ void Contact::book(double dt, double kick) {
     WorkingPair& pair = set_.pairs()[static_cast<std::size_t>(q.pair)];
     PairMemory& memory = pair.memory;
     const Vec3 before = relative_velocity(q, former_, former_bodies_, q.former_surface_velocity);
-    const Vec3 after = relative_velocity(q, enforcement_.velocities(), bodies_after, q.surface_velocity);
-    const Vec3 mean = 0.5 * (before + after);
+    const Vec3 solved = relative_velocity(q, solved_, solved_bodies_, q.surface_velocity);
+    const Vec3 after = relative_velocity(q, enforcement_.velocities(), pushed_bodies_, q.surface_velocity);
+    const bool is_released = released_[k].energy > 0;
+    const Vec3 by_others = solved - released_[k].free * q.normal;
+    const Vec3 mean = 0.5 * (before + (is_released ? after + by_others : solved));
     const double pressed = dot(q.impulse, q.normal);
     const Vec3 across = q.impulse - pressed * q.normal;
     const double normal_work = pressed * dot(q.normal, mean), friction = -dot(across, mean);
     const double stored = memory.energy;
-    const bool is_released = released_[k].energy > 0;
     memory.energy = is_released ? 0.0 : std::max(0.0, stored - normal_work);
     memory.force = is_released ? Vec3{} : (1 / kick) * q.impulse;
     const Vec3 way = memory.slip + dt * after;

@@ -162,6 +162,8 @@ class Contact final : public Interaction {
   std::vector<Constraint> constraints_;
   std::vector<std::int32_t> constraint_of_pair_;
   std::vector<contact::Enforcement::Release> released_;
+  std::vector<Vec3> solved_;  // velocities by contact before anything is released, m/s
+  std::vector<contact::Body> solved_bodies_, pushed_bodies_;
   std::vector<Vec3> slid_;    // m, in this step, per constraint
   std::vector<double> heat_;  // J, likewise
   std::vector<contact::Touch> touches_;

@@ -162,27 +162,27 @@ double Enforcement::weight(const NodeState& node, std::span<const Body> bodies) 
 }
 
 void Enforcement::precondition(std::span<Constraint> constraints, std::span<const NodeState> nodes,
-                               std::span<const Body> bodies, std::span<const Release> chosen) {
-  const auto counts = [&](std::size_t q) { return chosen.empty() || chosen[q].energy > 0; };
+                               std::span<const Body> bodies, std::span<const double> guess) {
+  const auto amount = [&](std::size_t q) { return guess.empty() ? 1.0 : guess[q]; };
   crowd_.assign(nodes.size(), 0.0);
   for (const std::size_t n : used_)
     for (std::int32_t k = first_[n]; k < first_[n + 1]; ++k) {
       const Use use = uses_[static_cast<std::size_t>(k)];
       const auto q = static_cast<std::size_t>(use.constraint);
-      if (counts(q)) crowd_[n] += coefficient(constraints[q], static_cast<std::size_t>(use.slot));
+      crowd_[n] += amount(q) * coefficient(constraints[q], static_cast<std::size_t>(use.slot));
     }
   set_.halo().forward<double>(crowd_, crowd_);
   std::vector<double> body_crowd(bodies.size());
   if (has_bodies_) {  // all that touch a body share it
     std::vector<ExactSum> sums(bodies.size());
     for (std::size_t q = 0; q < constraints.size(); ++q) {
-      if (!counts(q) || !set_.pairs()[static_cast<std::size_t>(constraints[q].pair)].primary) continue;
+      if (amount(q) == 0 || !set_.pairs()[static_cast<std::size_t>(constraints[q].pair)].primary) continue;
       for (std::int32_t i = 0; i < constraints[q].nodes; ++i) {
         const auto slot = static_cast<std::size_t>(i);
         const std::int32_t body = nodes[static_cast<std::size_t>(constraints[q].node[slot])].mobility.body;
-        if (body >= 0) sums[static_cast<std::size_t>(body)].add(coefficient(constraints[q], slot));
+        if (body >= 0) sums[static_cast<std::size_t>(body)].add(amount(q) * coefficient(constraints[q], slot));
       }
-      if (constraints[q].body >= 0) sums[static_cast<std::size_t>(constraints[q].body)].add(1.0);
+      if (constraints[q].body >= 0) sums[static_cast<std::size_t>(constraints[q].body)].add(amount(q));
     }
     comm_.sum(sums, body_crowd);
   }
@@ -201,7 +201,7 @@ void Enforcement::precondition(std::span<Constraint> constraints, std::span<cons
       const Vec3& m = body.state.inverse_mass;
       k += body_crowd[static_cast<std::size_t>(constraint.body)] * std::max({m[0], m[1], m[2]});
     }
-    constraint.inverse = k > 0 ? 1 / k : 0;
+    constraint.inverse = k > 0 ? amount(q) / k : 0;
   }
 }
 
@@ -319,23 +319,35 @@ Enforcement::Report Enforcement::solve(std::span<Constraint> constraints, std::s
   return report;
 }
 
-// p (u- + u + k p)/2 = E with u by the impulses so far: p = (sqrt(s^2 + 8 k E) - s)/(2 k), s = u- + u.
+// p (u- + u + k p)/2 + p (u - u*)/2 = E with u by the impulses so far and u* without any:
+// p = (sqrt(s^2 + 8 k E) - s)/(2 k), s = u- + 2 u - u*. For any g > 0, k_q = (|C| M^-1 |C|^T g)_q / g_q bounds what all
+// do together: sum p k p >= p |C| M^-1 |C|^T p, with equality where g = p. So each guess is as safe, and the next loses
+// less.
 void Enforcement::release(std::span<Constraint> constraints, std::span<const NodeState> nodes,
                           std::vector<Body>& bodies, std::span<const Release> releases) {
-  precondition(constraints, nodes, bodies, releases);
+  constexpr int guesses = 4;
+  guess_.resize(constraints.size()), pace_.resize(constraints.size());
   for (std::size_t q = 0; q < constraints.size(); ++q) {
-    Constraint& constraint = constraints[q];
-    const Release& release = releases[q];
-    if (!(release.energy > 0) || constraint.inverse == 0) continue;
+    const Constraint& constraint = constraints[q];
+    guess_[q] = releases[q].energy > 0 ? 1 : 0;
+    if (guess_[q] == 0) continue;
     Vec3 u = relative_velocity(constraint, velocity_, bodies, constraint.surface_velocity);
     if (constraint.body >= 0) {
       const Body& body = bodies[static_cast<std::size_t>(constraint.body)];
       u = u - by_component(body.state.inverse_mass, body.impulse.linear);
     }
-    const double s = release.former + dot(u, constraint.normal);
-    const double p = 0.5 * constraint.inverse * (std::sqrt(s * s + 8 * release.energy / constraint.inverse) - s);
-    constraint.impulse = constraint.impulse + p * constraint.normal;
+    pace_[q] = releases[q].former + 2 * dot(u, constraint.normal) - releases[q].free;
   }
+  for (int pass = 0; pass < guesses; ++pass) {
+    precondition(constraints, nodes, bodies, guess_);
+    for (std::size_t q = 0; q < constraints.size(); ++q) {
+      const double inverse = constraints[q].inverse, s = pace_[q];
+      if (guess_[q] == 0) continue;
+      guess_[q] = 0.5 * inverse * (std::sqrt(s * s + (inverse > 0 ? 8 * releases[q].energy / inverse : 0)) - s);
+    }
+  }
+  for (std::size_t q = 0; q < constraints.size(); ++q)
+    if (guess_[q] != 0) constraints[q].impulse = constraints[q].impulse + guess_[q] * constraints[q].normal;
   move(constraints, nodes, bodies, [](const Constraint& q) { return q.impulse; });
 }
 

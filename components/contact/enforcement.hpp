@@ -80,9 +80,11 @@ class Enforcement {
   struct Release {
     double energy = 0;  ///< J; 0: none
     double former = 0;  ///< m/s, relative velocity along the normal before the kick
+    double free = 0;    ///< m/s, likewise after the kick, without contact
   };
-  /// Collective. Adds impulses p to the chosen constraints whose work, p (u- + u+)/2 with the velocity u- of before the
-  /// kick, is the energy that each has stored; less where they share nodes.
+  /// Collective. Adds impulses p to the chosen constraints. Their work, p (u- + u+)/2 with the velocity u- of before
+  /// the kick, and what they add to the work of the impulses found so far, is the energy that each has stored; less
+  /// where they share nodes.
   void release(std::span<Constraint> constraints, std::span<const NodeState> nodes, std::vector<Body>& bodies,
                std::span<const Release> releases);
 
@@ -102,7 +104,7 @@ class Enforcement {
  private:
   void connect(std::span<const Constraint> constraints);
   void precondition(std::span<Constraint> constraints, std::span<const NodeState> nodes, std::span<const Body> bodies,
-                    std::span<const Release> chosen);
+                    std::span<const double> guess);
   template <typename Impulse>
   void move(std::span<const Constraint> constraints, std::span<const NodeState> nodes, std::vector<Body>& bodies,
             Impulse impulse);
@@ -123,6 +125,8 @@ class Enforcement {
   std::vector<Use> uses_;
   std::vector<Vec3> velocity_, sum_;
   std::vector<double> crowd_;  // sum of |c| over the constraints of a node
+  std::vector<double> guess_;  // of impulses that give energy back, N s; 0: none
+  std::vector<double> pace_;   // m/s, twice the mean velocity that these impulses work on, but for themselves
   bool has_bodies_ = false;
 };
 
