@@ -325,7 +325,7 @@ Enforcement::Report Enforcement::solve(std::span<Constraint> constraints, std::s
 // less.
 void Enforcement::release(std::span<Constraint> constraints, std::span<const NodeState> nodes,
                           std::vector<Body>& bodies, std::span<const Release> releases) {
-  constexpr int guesses = 4;
+  constexpr int guesses = 2;
   guess_.resize(constraints.size()), pace_.resize(constraints.size());
   for (std::size_t q = 0; q < constraints.size(); ++q) {
     const Constraint& constraint = constraints[q];

@@ -64,13 +64,12 @@ double exit_speed(const Shot& shot) {
   return v;
 }
 
-/// With a tenth of the step the cube leaves as fast, to 2 %; of a glancing shot to 2 % of what it brings along the
-/// normal, of which little is left.
+/// With a tenth of the step the cube leaves as fast, to 2 %.
 void compare(Shot shot) {
   const double v = exit_speed(shot);
   shot.share = 0.1;
   const double exact = exit_speed(shot);
-  EXPECT_NEAR(v, exact, 0.02 * (shot.angle == 0 ? std::abs(exact) : shot.speed * std::cos(shot.angle)));
+  EXPECT_NEAR(v, exact, 0.02 * std::abs(exact));
 }
 
 TEST(Tunnelling, At250MetresPerSecond) {
@@ -99,10 +98,20 @@ TEST(Tunnelling, OverlappingAtTheStart) {
   compare({1000, -1e-4});
 }
 
+// To 2 % of what the cube brings along the normal, 17.45 m/s. Little of it is left, 2 to 3 m/s, and it rattles: steps
+// of 1, 0.97 and 0.94 of the usual give 2.55, 2.93 and 3.01 m/s. So means over shots from nine heights are compared.
 TEST(Tunnelling, Glancing) {
+  constexpr int shots = 9;
   Shot shot;
-  shot.angle = 89 * std::numbers::pi / 180, shot.gap = 0.1e-3, shot.travel = 0.5e-3;
-  compare(shot);
+  shot.angle = 89 * std::numbers::pi / 180;
+  double usual = 0, exact = 0;
+  for (int k = 0; k < shots; ++k) {
+    shot.gap = (0.08 + 0.005 * k) * 1e-3, shot.travel = shot.gap + 0.4e-3;
+    shot.share = 1, usual += exit_speed(shot) / shots;
+    shot.share = 0.1, exact += exit_speed(shot) / shots;
+  }
+  std::printf("C09 89 degrees, means of %d shots: %.2f m/s, with a tenth of the step %.2f\n", shots, usual, exact);
+  EXPECT_NEAR(usual, exact, 0.02 * shot.speed * std::cos(shot.angle));
 }
 
 // Nothing passes at any speed for which the step is stable: one step may carry the cube far beyond the plate.
