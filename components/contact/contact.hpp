@@ -100,6 +100,7 @@ class Contact final : public Interaction {
   void touch_pairs(double time, double dt);
   double fastest(std::span<const Vec3> velocity, double time, double dt) const;
   double near_of(const contact::WorkingPair& pair) const;
+  double distance_to_face(const contact::WorkingPair& pair, const Vec3& x, const contact::FaceShape& face) const;
   void let_sleep(std::size_t pair, double apart, double dt);
   double least_distance(const contact::WorkingPair& pair) const;
   void touch_faces(std::size_t begin, std::size_t end, double dt);

@@ -2,6 +2,7 @@
 // Which pairs can meet in a step, and the constraints that they make.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "components/contact/contact.hpp"
 #include "components/contact_geometry/choose_touches.hpp"
@@ -131,6 +132,26 @@ double Contact::near_of(const WorkingPair& pair) const {
   return std::max(pair.clearance, 0.0) + pair.margin + pair.depth;
 }
 
+/// How far a node and a face are from being of interest at the start of the step, at least, m. A node in front of all
+/// of a solid's face has to come near it, or behind its plane, before the depth behind it matters; that holds as long
+/// as the face turns little.
+double Contact::distance_to_face(const WorkingPair& pair, const Vec3& x, const FaceShape& face) const {
+  const double distance = closest_point(face, x).distance, apart = distance - near_of(pair);
+  if (pair.two_sided) return apart;
+  constexpr double least_cosine = 0.5, greatest_turn = 0.1, rim = 2e-3;
+  const Vec3 normal = face_normal(face, {0.25, 0.25, 0.25, 0.25});
+  double front = std::numeric_limits<double>::infinity(), longest = 0, least_area = front;
+  for (int k = 0; k < face.corners; ++k) {
+    const auto at = [&](int i) { return face.x[static_cast<std::size_t>((k + i) % face.corners)]; };
+    const Vec3 ahead = at(1) - at(0), back = at(face.corners - 1) - at(0), area = cross(ahead, back);
+    if (!(dot(area, normal) > least_cosine * norm(area))) return apart;
+    front = std::min(front, dot(normal, x - at(0)));
+    longest = std::max(longest, norm(ahead)), least_area = std::min(least_area, norm(area));
+  }
+  const double near = std::max(pair.clearance, 0.0) + pair.margin + rim * longest;
+  return std::max(apart, std::min({distance - near, front, greatest_turn * least_area / longest}));
+}
+
 /// A pair that is `apart` (m) from being of interest when the step begins need not be looked at until the ways of all
 /// nodes have been as long.
 void Contact::let_sleep(std::size_t pair, double apart, double dt) {
@@ -184,7 +205,7 @@ void Contact::touch_faces(std::size_t begin, std::size_t end, double dt) {
     Touch touch;
     if (!touch_face(state_[n].place, end_[n], start, finish, pair.clearance, pair.depth, pair.two_sided, pair.margin,
                     touch)) {
-      if (pair.memory.empty()) let_sleep(q, closest_point(start, state_[n].place).distance - near_of(pair), dt);
+      if (!again_ && pair.memory.empty()) let_sleep(q, distance_to_face(pair, state_[n].place, start), dt);
       continue;
     }
     touches_.push_back(touch), touch_nodes_.push_back(ids), touch_ids_.push_back(pair.key.ids[1]);

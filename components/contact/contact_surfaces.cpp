@@ -123,7 +123,9 @@ void ContactSurfaces::take_faces() {
 void ContactSurfaces::find_nodes() {
   std::vector<int> to;
   std::vector<NodeClaim> claims;
-  for (const SurfaceFace& face : faces_) {
+  claim_faces_.clear();
+  for (std::size_t f = 0; f < faces_.size(); ++f) {
+    const SurfaceFace& face = faces_[f];
     const Mesh& mesh = parties_[static_cast<std::size_t>(face.party)]->contact_mesh();
     std::array<Vec3, 4> x{};
     for (int k = 0; k < face.count(); ++k)
@@ -133,6 +135,7 @@ void ContactSurfaces::find_nodes() {
     for (int k = 0; k < face.count(); ++k) {
       const auto n = static_cast<std::size_t>(face.nodes[static_cast<std::size_t>(k)]);
       to.push_back(mesh.node_owners[n]);
+      claim_faces_.push_back(static_cast<LocalIndex>(f));
       claims.push_back({mesh.node_ids[n], face.party, face.surface, face.id, size,
                         face_area(x, face.count()) / face.count(), face.radius});
     }
@@ -144,6 +147,7 @@ void ContactSurfaces::find_nodes() {
     const Mesh& mesh = parties_[p]->contact_mesh();
     for (const ContactParticle& particle : particles) {
       to.push_back(comm_.rank());
+      claim_faces_.push_back(no_index);
       claims.push_back({mesh.node_ids[static_cast<std::size_t>(particle.node)], static_cast<std::int32_t>(p),
                         surface_offsets_[p] + particle.surface, no_id, 2 * particle.radius,
                         std::numbers::pi * particle.radius * particle.radius, particle.radius});
@@ -178,7 +182,7 @@ void ContactSurfaces::find_nodes() {
     answers[i] = static_cast<LocalIndex>(nodes_.size() - 1);
   }
   claim_first_.push_back(seen);
-  claim_order_ = std::move(order), claims_ = claims.size(), claim_plan_ = plan;
+  claim_order_ = std::move(order), claim_plan_ = plan;
   std::vector<LocalIndex> places(claims.size());
   plan.reverse<LocalIndex>(answers, places);
 
@@ -289,12 +293,19 @@ void ContactSurfaces::find_edges() {
 }
 
 void ContactSurfaces::around_nodes(std::span<const Vec3> face_normals, std::vector<Vec3>& result) const {
-  std::vector<Vec3> send(claims_), arrived(claim_order_.size());
-  std::size_t c = 0;
-  for (std::size_t f = 0; f < faces_.size(); ++f)
-    for (int k = 0; k < faces_[f].count(); ++k) send[c++] = faces_[f].two_sided ? Vec3{} : face_normals[f];
+  const auto normal_of = [&](std::size_t claim) {
+    const LocalIndex f = claim_faces_[claim];
+    const auto face = static_cast<std::size_t>(f);
+    return f == no_index || faces_[face].two_sided ? Vec3{} : face_normals[face];
+  };
+  result.resize(claim_order_.size());
+  if (comm_.size() == 1) {  // what is claimed arrives as it is sent
+    for (std::size_t i = 0; i < result.size(); ++i) result[i] = normal_of(claim_order_[i]);
+    return;
+  }
+  std::vector<Vec3> send(claim_faces_.size()), arrived(claim_order_.size());
+  for (std::size_t c = 0; c < send.size(); ++c) send[c] = normal_of(c);
   claim_plan_.forward<Vec3>(send, arrived);
-  result.resize(arrived.size());
   for (std::size_t i = 0; i < arrived.size(); ++i) result[i] = arrived[claim_order_[i]];
 }
 

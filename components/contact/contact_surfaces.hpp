@@ -134,7 +134,7 @@ class ContactSurfaces {
   std::vector<std::array<LocalIndex, 4>> face_slots_;
   LocalIndex corner_count_ = 0, edge_face_count_ = 0;
   std::vector<std::size_t> claim_order_, claim_first_;  // of what faces say of nodes: by node and face
-  std::size_t claims_ = 0;
+  std::vector<LocalIndex> claim_faces_;                 // whose claims these are; no_index: of particles
   ExchangePlan claim_plan_, corner_plan_, edge_face_plan_, far_end_plan_;
 };
 
