@@ -109,7 +109,8 @@ void CandidateSearch::choose_skins(double dt) {
   for (std::size_t n = 0; n < nodes.size(); ++n) {
     const double way = dt * norm(v[n] - common_), size = nodes[n].size;
     const double share = std::min(std::max(relative_skin * size, steps_ahead * way), greatest_relative_skin * size);
-    skin_[n] = std::max(widening_ * share, step_margin * way);
+    const double expected = expected_.empty() ? 0 : expected_[n];
+    skin_[n] = std::max(widening_ * share, step_margin * (way + expected));
     sought_nodes_[n].inverse_square = 1 / (skin_[n] * skin_[n]);
     sought_nodes_[n].node = nodes[n].node, sought_nodes_[n].party = nodes[n].party;
   }

@@ -34,6 +34,16 @@ class CandidateSearch {
   /// Local. Skins of the next search, in terms of the usual ones: wider while nothing is near.
   void widen(double by) { widening_ = by; }
 
+  /// Local. Ways (m; of nodes(), or none) that the nodes may go in a step beside those by their velocities: the next
+  /// searches have skins for them.
+  void expect(std::vector<double> ways) { expected_ = std::move(ways); }
+  /// Of a node of this rank: where it was when sought, and its skin.
+  struct Sought {
+    Vec3 place;             ///< m
+    double inverse_square;  ///< 1/m^2
+  };
+  Sought sought(std::size_t node) const { return {sought_nodes_[node].place, sought_nodes_[node].inverse_square}; }
+
   /// Pairs on this rank, whoever they belong to: (node, face) and (edge, edge).
   const std::vector<BoxPair>& node_faces() const { return node_faces_; }
   const std::vector<BoxPair>& edge_edges() const { return edge_edges_; }
@@ -84,7 +94,7 @@ class CandidateSearch {
     std::int32_t party;
   };
   std::vector<SoughtNode> sought_nodes_;
-  std::vector<double> skin_, corner_skin_, far_skin_, face_skin_;
+  std::vector<double> skin_, corner_skin_, far_skin_, expected_, face_skin_;
   std::vector<Vec3> face_normal_, around_;
   std::vector<FacePlane> planes_, edge_planes_;
   std::vector<Box> node_boxes_, face_boxes_, edge_boxes_;

@@ -19,13 +19,9 @@ void Contact::act(double time, double dt) {
     used_ = std::max(search_.used(dt), used_by_rigid(time, dt));
   }
   if (set_.any()) {
-    gather(time, dt);
-    find_constraints(time, dt);
-    any_constraint_ = comm_.any(!constraints_.empty());
+    find_impulses(time, dt);
     if (any_constraint_) {
-      const double kick = parties_.front()->contact_kick();
-      solve(time, dt, kick);
-      book(dt, kick);
+      book(dt, parties_.front()->contact_kick());
       send_back();
     }
     way_ += 2 * dt * std::max(fastest_, any_constraint_ ? fastest(enforcement_.velocities(), time, dt) : 0.0);
@@ -42,6 +38,63 @@ void Contact::act(double time, double dt) {
   }
   if (!rigid_.empty()) move_rigid(time, dt);
   search_.passed(dt);
+}
+
+// What contact throws farther than its skin may meet what no search has found: then the step is searched anew, with
+// skins for the velocities that were found, and its impulses with it, from what the pairs remembered before.
+void Contact::find_impulses(double time, double dt) {
+  constexpr int greatest_throws = 3;
+  for (int k = 0;; ++k) {
+    changed_.clear(), given_up_.clear();
+    gather(time, dt);
+    find_constraints(time, dt);
+    any_constraint_ = comm_.any(!constraints_.empty());
+    if (!any_constraint_ || solve(time, dt, parties_.front()->contact_kick(), k == greatest_throws)) break;
+    for (; !changed_.empty(); changed_.pop_back()) set_.pairs()[changed_.back().first].memory = changed_.back().second;
+    expect_thrown(dt);
+    search(time, dt);
+    search_.expect({}), rigid_reserve_ = 0;
+  }
+  for (const double energy : given_up_) dissipated_.add(energy);
+}
+
+/// Collective. Share of their skins that the nodes and rigid surfaces on which contact acts have used up at the end of
+/// the step.
+double Contact::used_by_thrown(double time, double dt) const {
+  double greatest = 0;
+  const Vec3 common = (search_.since() + dt) * search_.common();
+  for (const Constraint& q : constraints_)
+    for (std::size_t k = 0; k < static_cast<std::size_t>(q.nodes); ++k) {
+      const auto n = static_cast<std::size_t>(q.node[k]);
+      const Vec3 moved = (state_[n].place - sought_[n].place) + (dt * enforcement_.velocities()[n] - common);
+      greatest = std::max(greatest, dot(moved, moved) * sought_[n].inverse_square);
+    }
+  greatest = std::sqrt(greatest);
+  for (std::size_t r = 0; r < rigid_.size() && rigid_skin_ > 0; ++r) {
+    const Vec3 moved = rigid_[r].shift() + dt * (rigid_[r].velocity(time, dt) + thrown(r)) - rigid_sought_[r] - common;
+    greatest = std::max(greatest, norm(moved) / rigid_skin_);
+  }
+  return comm_.max(greatest);
+}
+
+/// Change of the velocity of a rigid surface by contact, m/s.
+Vec3 Contact::thrown(std::size_t surface) const {
+  Vec3 dv{};
+  if (!rigid_[surface].is_free()) return dv;
+  const Body& body = bodies_[static_cast<std::size_t>(first_body_[parties_.size() + surface])];
+  for (std::size_t c = 0; c < 3; ++c) dv[c] = body.state.inverse_mass[c] * body.impulse.linear[c];
+  return dv;
+}
+
+/// The next search has skins for the changes of velocity that contact has found.
+void Contact::expect_thrown(double dt) {
+  std::vector<double> change(state_.size()), at_home(set_.busy().size()), ways(surfaces_.nodes().size());
+  for (std::size_t n = 0; n < state_.size(); ++n)
+    change[n] = dt * norm(enforcement_.velocities()[n] - state_[n].velocity);
+  set_.results().reverse<double>(change, at_home);
+  for (std::size_t b = 0; b < at_home.size(); ++b) ways[static_cast<std::size_t>(set_.busy()[b])] = at_home[b];
+  search_.expect(std::move(ways));
+  for (std::size_t r = 0; r < rigid_.size(); ++r) rigid_reserve_ = std::max(rigid_reserve_, 2 * dt * norm(thrown(r)));
 }
 
 void Contact::gather(double time, double dt) {
@@ -112,7 +165,8 @@ void Contact::limit_removal(Constraint& q, double dt) const {
   q.target = std::min(q.target, std::max(slow * pair.margin / dt, std::sqrt(2 * pair.memory.energy * lightest)));
 }
 
-void Contact::solve(double time, double dt, double kick) {
+// False if contact throws a node beyond its skin, unless this is the last trial.
+bool Contact::solve(double time, double dt, double kick, bool last) {
   for (Constraint& q : constraints_) {
     const PairMemory& memory = set_.pairs()[static_cast<std::size_t>(q.pair)].memory;
     const double along = std::max(0.0, dot(memory.force, q.normal));
@@ -129,10 +183,12 @@ void Contact::solve(double time, double dt, double kick) {
       iterations_ = report.iterations, iterations_total_ += report.iterations;
       enforcement_work_ += static_cast<std::int64_t>(constraints_.size()) * report.iterations;
     }
+    if (!last && used_by_thrown(time, dt) > 1) return false;
     if (look == greatest_looks || !comm_.any(find_more(time, dt))) break;
   }
   const ScopedTimer timer(*phases_.solve);
   release();
+  return last || used_by_thrown(time, dt) <= 1;
 }
 
 namespace {
@@ -248,10 +304,7 @@ std::int32_t Contact::party_bodies() const {
 void Contact::move_rigid(double time, double dt) {
   for (std::size_t r = 0; r < rigid_.size(); ++r) {
     Vec3 velocity = rigid_[r].velocity(time, dt);
-    if (rigid_[r].is_free() && any_constraint_) {
-      const Body& body = bodies_[static_cast<std::size_t>(first_body_[parties_.size() + r])];
-      for (std::size_t c = 0; c < 3; ++c) velocity[c] += body.state.inverse_mass[c] * body.impulse.linear[c];
-    }
+    if (any_constraint_) velocity = velocity + thrown(r);
     rigid_[r].move(velocity, time, dt);
   }
 }

@@ -92,6 +92,10 @@ class Contact final : public Interaction {
   void limit_clearances();
   void watch_nodes();
   // A step.
+  void find_impulses(double time, double dt);
+  double used_by_thrown(double time, double dt) const;
+  Vec3 thrown(std::size_t surface) const;
+  void expect_thrown(double dt);
   void gather(double time, double dt);
   void find_constraints(double time, double dt);
   bool find_more(double time, double dt);
@@ -109,7 +113,7 @@ class Contact final : public Interaction {
   void add_constraint(std::size_t pair, const contact::Touch* touch, const contact::EdgeTouch* edges,
                       const contact::RigidTouch* rigid, double dt);
   void hand_over(std::size_t begin, std::size_t end, std::size_t first_constraint);
-  void solve(double time, double dt, double kick);
+  bool solve(double time, double dt, double kick, bool last);
   void limit_removal(Constraint& constraint, double dt) const;
   void release();
   void book(double dt, double kick);
@@ -149,14 +153,18 @@ class Contact final : public Interaction {
   double used_ = 0;                 // of the skins, after the last step
   std::vector<Vec3> rigid_sought_;  // shifts of rigid surfaces when sought, m
   double rigid_skin_ = 0;           // m, which they may move beside the common motion
+  double rigid_reserve_ = 0;        // m, of it for what contact is about to do
   double widening_ = 1;
   int narrow_ = 0;  // searches until skins may be widened again
   bool started_ = false;
 
   // Of a step.
   std::vector<contact::NodeState> home_state_, state_;
-  std::vector<Vec3> end_;     // predicted places, m
-  std::vector<Vec3> former_;  // velocities of before the kick, m/s
+  std::vector<contact::CandidateSearch::Sought> sought_;              // of the nodes of the set
+  std::vector<std::pair<std::size_t, contact::PairMemory>> changed_;  // memories of pairs before this step moved them
+  std::vector<double> given_up_;                                      // J, of memories that no pair took over
+  std::vector<Vec3> end_;                                             // predicted places, m
+  std::vector<Vec3> former_;                                          // velocities of before the kick, m/s
   std::vector<contact::Body> former_bodies_;
   std::vector<contact::Body> bodies_;     // of the parties, then free rigid surfaces
   std::vector<std::int32_t> first_body_;  // of each party; then of the rigid surfaces

@@ -304,13 +304,16 @@ void Contact::hand_over(std::size_t begin, std::size_t end, std::size_t first_co
         for (std::int32_t b = 1; b < heir.nodes; ++b)
           meet = meet || pairs[q].node[static_cast<std::size_t>(a)] == heir.node[static_cast<std::size_t>(b)];
       if (!meet) continue;
+      changed_.emplace_back(static_cast<std::size_t>(constraints_[k].pair), heir.memory);
+      changed_.emplace_back(q, memory);
       heir.memory.force = heir.memory.force + memory.force;
       heir.memory.slip = heir.memory.slip + memory.slip;
       heir.memory.energy += memory.energy;
       memory = {};
       break;
     }
-    if (memory.energy != 0 && pairs[q].primary) dissipated_.add(memory.energy);
+    if (memory.energy != 0 && pairs[q].primary) given_up_.push_back(memory.energy);
+    if (!memory.empty()) changed_.emplace_back(q, memory);
     memory = {};
   }
 }

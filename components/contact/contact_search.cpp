@@ -59,6 +59,10 @@ void Contact::renew(double time, double dt) {
       search_, extra, [this](PairRecord& pair) { return admit(pair); }, restored_);
   restored_.clear();
   for (const double energy : set_.lost()) dissipated_.add(energy);
+  std::vector<CandidateSearch::Sought> sought(set_.busy().size());
+  for (std::size_t b = 0; b < sought.size(); ++b) sought[b] = search_.sought(static_cast<std::size_t>(set_.busy()[b]));
+  sought_.resize(static_cast<std::size_t>(set_.nodes()));
+  set_.from_home().forward<CandidateSearch::Sought>(sought, sought_);
   limit_clearances();
   make_groups();
   watch_nodes();
@@ -72,7 +76,9 @@ void Contact::add_rigid_pairs(double time, double dt, std::vector<PairRecord>& e
   rigid_sought_.clear();
   for (const MovingSurface& surface : rigid_) {
     rigid_sought_.push_back(surface.shift());
-    if (dt > 0) rigid_skin_ = std::max(rigid_skin_, 2 * dt * norm(surface.velocity(time, dt) - search_.common()));
+    if (dt > 0)
+      rigid_skin_ =
+          std::max(rigid_skin_, 2 * dt * norm(surface.velocity(time, dt) - search_.common()) + rigid_reserve_);
   }
   for (std::size_t r = 0; r < rigid_.size(); ++r)
     for (std::size_t n = 0; n < nodes.size(); ++n) {
