@@ -59,6 +59,8 @@ std::span<const Frame> frames(ElementKind kind) {
       return pyramid;
     case ElementKind::quad4:
       return quad;
+    case ElementKind::particle:
+      return {};
     case ElementKind::tri3:
       break;
   }

@@ -199,6 +199,10 @@ void pull_nodes(const Communicator& comm, const MeshData& data, const Owners& ow
                                            travelling(data.node_labels, mesh.node_labels),
                                            travelling(owners.nodes, mesh.node_owners)};
   plan.forward(arrays);
+  if (comm.any(!data.volumes.empty())) {
+    mesh.volumes.resize(count);
+    plan.forward(std::span<const double>(data.volumes), std::span(mesh.volumes));
+  }
 
   Lists<std::int32_t> marks;
   if (comm.rank() == 0) marks = node_marks(data);

@@ -64,6 +64,14 @@ struct PlateShape {
 };
 MeshData generate(const PlateShape& shape);
 
+/// Particles on a lattice that fill a shape: one block "particles" of them, one node each, and Mesh::volumes.
+struct ParticleBox {
+  Vec3 low{0, 0, 0}, high{1, 1, 1};       ///< m; along the axes that a run leaves out, both are the place
+  std::array<int, 3> particles{1, 1, 1};  ///< each in the middle of a cell of its own
+  int dimension = 3;                      ///< what volumes are of
+};
+MeshData generate(const ParticleBox& shape);
+
 /// The same mesh of simplices: every hex8 into six tet4, wedge6 into three, pyramid5 into two, quad4 into two tri3.
 /// Conforming for any mesh: a quadrilateral is cut by the diagonal at its least node number, and a solid into the
 /// cone from its least node number over the triangles of the sides that do not touch it (pulling triangulation, as in

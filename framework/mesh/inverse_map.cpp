@@ -239,6 +239,7 @@ InverseMap inverse_map(ElementKind kind, std::span<const Vec3> corners, const Ve
       return curved_search(kind, corners, point);
     case ElementKind::quad4:
     case ElementKind::tri3:
+    case ElementKind::particle:
       break;
   }
   return {element_centre(kind), false};  // a surface has no inverse
@@ -267,6 +268,9 @@ double overshoot(ElementKind kind, const Vec3& xi) {
       break;
     case ElementKind::tri3:
       outside = 2 * std::max({-xi[0], -xi[1], xi[0] + xi[1] - 1});
+      break;
+    case ElementKind::particle:
+      outside = std::max({x, y, z});
       break;
   }
   return std::max(outside, 0.0);

@@ -63,6 +63,7 @@ class Mesh {
   std::vector<std::int64_t> node_labels;  ///< ids in the file, for messages
   std::vector<int> node_owners;
   std::vector<Vec3> coordinates;        ///< reference coordinates, m
+  std::vector<double> volumes;          ///< of nodes that are particles, as in MeshData; empty: none are
   std::vector<LocalIndex> owned_nodes;  ///< local indices of owned nodes, ascending
   std::vector<ElementBlock> blocks;
   std::vector<NodeSet> node_sets;

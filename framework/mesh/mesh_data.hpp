@@ -43,6 +43,7 @@ struct MeshData {
   std::string source;                     ///< file or generator, for messages
   std::vector<Vec3> coordinates;          ///< m
   std::vector<std::int64_t> node_labels;  ///< node ids in the file
+  std::vector<double> volumes;            ///< of nodes that are particles, m^3 (2-D m^2, 1-D m); empty: none are
   std::vector<BlockData> blocks;
   std::vector<NodeSetData> node_sets;
   std::vector<SideSetData> side_sets;

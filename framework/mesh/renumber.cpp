@@ -90,6 +90,7 @@ void order_elements(MeshData& mesh, const std::vector<Order>& orders) {
 void order_nodes(MeshData& mesh, const Order& order) {
   const Order place = inverse(order);
   permute(mesh.coordinates, order);
+  if (!mesh.volumes.empty()) permute(mesh.volumes, order);
   permute(mesh.node_labels, order);
   for (BlockData& block : mesh.blocks)
     for (GlobalId& node : block.connectivity) node = place[static_cast<std::size_t>(node)];

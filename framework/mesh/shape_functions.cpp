@@ -168,6 +168,9 @@ void shape_values(ElementKind kind, const Vec3& xi, std::span<double> values) {
     case ElementKind::tet10:
       second_order::tet10_values(xi, values);
       return;
+    case ElementKind::particle:
+      values[0] = 1;
+      return;
   }
 }
 
@@ -200,6 +203,9 @@ void shape_gradients(ElementKind kind, const Vec3& xi, std::span<Vec3> gradients
     case ElementKind::tet10:
       second_order::tet10_gradients(xi, gradients);
       return;
+    case ElementKind::particle:
+      gradients[0] = {0, 0, 0};
+      return;
   }
 }
 
@@ -208,6 +214,7 @@ std::span<const Vec3> local_nodes(ElementKind kind) {
   static constexpr std::array<Vec3, 5> pyramid{{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {0, 0, 1}}};
   static constexpr std::array<Vec3, 4> quad{{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}};
   static constexpr std::array<Vec3, 3> tri{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}};
+  static constexpr std::array<Vec3, 1> particle{{{0, 0, 0}}};
   switch (kind) {
     case ElementKind::hex8:
       return hex_corner;
@@ -223,6 +230,8 @@ std::span<const Vec3> local_nodes(ElementKind kind) {
       return tri;
     case ElementKind::hex20:
       return second_order::hex20_nodes;
+    case ElementKind::particle:
+      return particle;
     case ElementKind::tet10:
       break;
   }
@@ -242,6 +251,7 @@ Vec3 element_centre(ElementKind kind) {
     case ElementKind::hex8:
     case ElementKind::quad4:
     case ElementKind::hex20:
+    case ElementKind::particle:
       break;
   }
   return {0, 0, 0};
@@ -255,7 +265,8 @@ std::span<const QuadraturePoint> quadrature(ElementKind kind) {
                                                      quad_rule(),
                                                      tri_rule(),
                                                      second_order::hex20_rule(),
-                                                     second_order::tet10_rule()};
+                                                     second_order::tet10_rule(),
+                                                     Rule{{{0, 0, 0}, 1.0}}};
   return rules[static_cast<std::size_t>(kind)];
 }
 

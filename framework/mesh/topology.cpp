@@ -90,6 +90,7 @@ constexpr std::array<Topology, element_kinds> topologies{{
      24,
      11,
      "tet tet10 tetra tetra10 tetrahedron"},
+    {ElementKind::particle, "particle", 0, 1, 0, {}, {}, 1, 15, "sphere circle particle"},
 }};
 
 constexpr std::array<CornerPair, 12> hex_edges{

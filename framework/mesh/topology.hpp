@@ -10,8 +10,9 @@
 
 namespace tenon {
 
-enum class ElementKind : std::uint8_t { hex8, tet4, wedge6, pyramid5, quad4, tri3, hex20, tet10 };
-inline constexpr int element_kinds = 8;
+/// A particle is an element of one node, without sides.
+enum class ElementKind : std::uint8_t { hex8, tet4, wedge6, pyramid5, quad4, tri3, hex20, tet10, particle };
+inline constexpr int element_kinds = 9;
 inline constexpr int max_element_nodes = 20;
 inline constexpr int max_linear_nodes = 8;  ///< of elements with nodes at their corners only
 inline constexpr int max_sides = 6;
@@ -23,7 +24,7 @@ inline constexpr int max_side_nodes = 4;
 struct Topology {
   ElementKind kind;
   std::string_view name;  ///< "hex8"
-  int dimension;          ///< of the element itself: 3 solid, 2 surface
+  int dimension;          ///< of the element itself: 3 solid, 2 surface, 0 particle
   int nodes;
   int sides;
   std::array<std::int8_t, max_sides> side_nodes;  ///< nodes of each side

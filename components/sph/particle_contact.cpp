@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "components/sph/particle_contact.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace tenon {
+
+ParticleContact::ParticleContact(const Parts& parts) : parts_(parts) {
+  const auto nodes = static_cast<std::size_t>(parts_.mesh.nodes());
+  surface_.assign(nodes, -1);
+  for (std::size_t b = 0; b < parts_.mesh.blocks.size(); ++b)
+    for (const LocalIndex n : parts_.mesh.blocks[b].connectivity)
+      if (!parts_.options.bodies[b].wall) surface_[static_cast<std::size_t>(n)] = static_cast<std::int32_t>(b);
+  for (std::vector<double>* const array : {&inverse_mass_, &radius_, &work_}) array->resize(nodes);
+  for (std::vector<Vec3>* const array : {&position_, &velocity_, &former_, &impulse_}) array->resize(nodes);
+}
+
+std::vector<std::string> ParticleContact::surface_names() const {
+  std::vector<std::string> names;
+  for (const ElementBlock& block : parts_.mesh.blocks) names.push_back(block.name);
+  return names;
+}
+
+// Half the spacing at the start, so that bodies in contact are as far apart as particles of one body.
+void ParticleContact::contact_particles(std::vector<ContactParticle>& particles) const {
+  particles.clear();
+  for (const LocalIndex n : parts_.mesh.owned_nodes) {
+    const auto i = static_cast<std::size_t>(n);
+    if (surface_[i] < 0) continue;
+    const double spacing = std::pow(parts_.mesh.volumes[i], 1.0 / parts_.options.dimension);
+    particles.push_back({n, 0.5 * spacing, surface_[i]});
+  }
+}
+
+double ParticleContact::effusivity(std::int32_t surface) const {
+  const MaterialDescription& material = parts_.options.bodies[static_cast<std::size_t>(surface)].material;
+  if (!material.thermal) return 0;
+  return std::sqrt(material.thermal->conductivity * material.density * material.thermal->specific_heat);
+}
+
+void ParticleContact::watch(std::span<const LocalIndex> nodes) {
+  watched_.assign(nodes.begin(), nodes.end());
+  watched_former_.resize(nodes.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i) watched_former_[i] = former_[static_cast<std::size_t>(nodes[i])];
+}
+
+void ParticleContact::bring(const Column& column, std::vector<Vec3>& nodes) {
+  const std::span<const double> values(column.data(), 3 * parts_.particles.owned());
+  parts_.home.to_nodes(parts_.decomposition.version(), values, {nodes.data()->data(), 3 * nodes.size()}, 3);
+}
+
+void ParticleContact::initialize() {
+  const std::span<const double> mass(parts_.particles.mass.data(), parts_.particles.owned());
+  parts_.home.to_nodes(parts_.decomposition.version(), mass, inverse_mass_, 1);
+  for (const LocalIndex n : parts_.mesh.owned_nodes) {
+    const auto i = static_cast<std::size_t>(n);
+    inverse_mass_[i] = surface_[i] < 0 ? 0 : 1 / inverse_mass_[i];
+  }
+  bring(parts_.particles.position, position_);
+  bring(parts_.particles.velocity, velocity_);
+  former_ = velocity_;
+}
+
+void ParticleContact::begin(double kick) {
+  kick_ = kick;
+  pushed_ = false;
+  bring(parts_.particles.position, position_);
+  bring(parts_.particles.velocity, velocity_);
+  bring(parts_.particles.former_velocity, former_);
+  for (std::size_t i = 0; i < watched_.size(); ++i) {
+    const auto n = static_cast<std::size_t>(watched_[i]);
+    watched_former_[i] = former_[n];
+    impulse_[n] = {};
+  }
+}
+
+void ParticleContact::mobilities(std::span<const LocalIndex> nodes, std::span<Mobility> mobility) const {
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const double w = inverse_mass_[static_cast<std::size_t>(nodes[i])];
+    mobility[i] = {{w, w, w, 0, 0, 0}, -1};
+  }
+}
+
+// As it is known at the end what the velocity becomes, earlier impulses of the step get their share of each change.
+void ParticleContact::push(std::span<const LocalIndex> nodes, std::span<const Vec3> impulses,
+                           std::span<const BodyImpulse>) {
+  pushed_ = true;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const auto n = static_cast<std::size_t>(nodes[i]);
+    const Vec3 dv = inverse_mass_[n] * impulses[i];
+    velocity_[n] = velocity_[n] + dv;
+    work_[n] += 0.5 * dot(impulses[i], former_[n] + velocity_[n]) + 0.5 * dot(impulse_[n], dv);
+    impulse_[n] = impulse_[n] + impulses[i];
+  }
+}
+
+void ParticleContact::end() {
+  if (!parts_.mesh.comm.any(pushed_)) return;
+  const std::size_t owned = parts_.particles.owned();
+  parts_.home.to_particles(parts_.decomposition.version(), {velocity_.data()->data(), 3 * velocity_.size()},
+                           std::span(parts_.particles.velocity.values).first(3 * owned), 3);
+}
+
+void ParticleContact::shift(std::span<const LocalIndex> nodes, std::span<const Vec3> by) {
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const auto n = static_cast<std::size_t>(nodes[i]);
+    position_[n] = position_[n] + by[i];
+  }
+  const std::size_t owned = parts_.particles.owned();
+  parts_.home.to_particles(parts_.decomposition.version(), {position_.data()->data(), 3 * position_.size()},
+                           std::span(parts_.particles.position.values).first(3 * owned), 3);
+  parts_.moved();
+}
+
+ExactSum ParticleContact::contact_work() const {
+  ExactSum sum;
+  for (const LocalIndex n : parts_.mesh.owned_nodes) sum.add(work_[static_cast<std::size_t>(n)]);
+  return sum;
+}
+
+ContactFields& ParticleContact::contact_fields() {
+  if (!fields_) {
+    const auto size = static_cast<std::size_t>(parts_.mesh.nodes());
+    fields_ = std::make_unique<ContactFields>();
+    fields_->force.resize(size), fields_->slip.resize(size);
+    fields_->gap.assign(size, std::numeric_limits<double>::infinity());
+    fields_->status.resize(size), fields_->pressure.resize(size), fields_->friction_heat.resize(size);
+  }
+  return *fields_;
+}
+
+std::int64_t ParticleContact::memory() const {
+  return static_cast<std::int64_t>(position_.size() * (4 * sizeof(Vec3) + 4 * sizeof(double)));
+}
+
+}  // namespace tenon

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Particles as contact sees them: balls at the nodes of their mesh.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "components/sph/home_exchange.hpp"
+#include "components/sph/particle_data.hpp"
+#include "components/sph/particle_decomposition.hpp"
+#include "components/sph/sph_options.hpp"
+#include "framework/simulation/contact_party.hpp"
+
+namespace tenon {
+
+/// Places and velocities come home after each kick; contact meets them there, and changed velocities go back.
+class ParticleContact final : public ContactParty {
+ public:
+  struct Parts {
+    const Mesh& mesh;
+    const SphOptions& options;
+    ParticleData& particles;
+    ParticleDecomposition& decomposition;
+    HomeExchange& home;
+    std::function<void()> moved;  ///< collective: after places changed without a step
+  };
+  /// Collective.
+  explicit ParticleContact(const Parts& parts);
+
+  const Mesh& contact_mesh() const override { return parts_.mesh; }
+  std::vector<std::string> surface_names() const override;
+  void contact_faces(std::vector<ContactFace>& faces) const override { faces.clear(); }
+  void contact_particles(std::vector<ContactParticle>& particles) const override;
+  double effusivity(std::int32_t surface) const override;
+  std::int64_t surface_version() const override { return 0; }
+  void watch(std::span<const LocalIndex> nodes) override;
+  std::span<const Vec3> contact_positions() const override { return position_; }
+  std::span<const Vec3> contact_velocities() const override { return velocity_; }
+  double contact_kick() const override { return kick_; }
+  std::span<const Vec3> former_velocities() const override { return watched_former_; }
+  void mobilities(std::span<const LocalIndex> nodes, std::span<Mobility> mobility) const override;
+  void push(std::span<const LocalIndex> nodes, std::span<const Vec3> impulses,
+            std::span<const BodyImpulse> bodies) override;
+  void shift(std::span<const LocalIndex> nodes, std::span<const Vec3> by) override;
+  ExactSum contact_work() const override;
+  ContactFields& contact_fields() override;
+
+  /// Collective. Masses, radii and places at the start of a run.
+  void initialize();
+  /// Collective, after the kick.
+  void begin(double kick);
+  /// Collective, before the drift.
+  void end();
+  ContactFields* fields() { return fields_.get(); }
+  std::vector<double>& node_work() { return work_; }
+  std::int64_t memory() const;
+
+ private:
+  void bring(const Column& column, std::vector<Vec3>& nodes);
+
+  Parts parts_;
+  std::vector<std::int32_t> surface_;  // of nodes; -1: a wall, which does not touch
+  std::vector<double> inverse_mass_, radius_, work_;
+  std::vector<Vec3> position_, velocity_, former_, impulse_;
+  std::vector<LocalIndex> watched_;
+  std::vector<Vec3> watched_former_;
+  std::unique_ptr<ContactFields> fields_;
+  double kick_ = 0;
+  bool pushed_ = false;
+};
+
+}  // namespace tenon

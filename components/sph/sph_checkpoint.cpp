@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// State in a checkpoint: every kept column, by particle. The order of a restart is that of `reference`, so sums go on
+// with the same bits.
+#include <algorithm>
+
+#include "components/sph/sph.hpp"
+
+namespace tenon {
+
+void Sph::save(CheckpointWriter& file) {
+  const auto key = [&](const std::string& field) { return name() + "." + field; };
+  file.scalar(key("previous_dt"), previous_dt_);
+  file.integer(key("steps"), steps_);
+  const std::size_t owned = particles_.owned();
+  const GlobalOrder order(mesh_->comm, std::span(particles_.ids).first(owned), mesh_->global_nodes);
+  for (const Column& column : particles_.columns())
+    if (column.kept)
+      file.array(key(column.name), order,
+                 std::span(column.values).first(owned * static_cast<std::size_t>(column.components)),
+                 column.components);
+  formulation_->save(file);
+  if (!contact_) return;
+  std::vector<GlobalId> ids;
+  std::vector<double> work, slip;
+  ContactFields* const fields = contact_->fields();
+  for (const LocalIndex n : mesh_->owned_nodes) {
+    const auto i = static_cast<std::size_t>(n);
+    ids.push_back(mesh_->node_ids[i]);
+    work.push_back(contact_->node_work()[i]);
+    for (std::size_t c = 0; c < 3; ++c) slip.push_back(fields ? fields->slip[i][c] : 0);
+  }
+  const GlobalOrder nodes(mesh_->comm, ids, mesh_->global_nodes);
+  file.array(key("contact_work"), nodes, work, 1);
+  file.array(key("contact_slip"), nodes, slip, 3);
+}
+
+void Sph::load(const CheckpointReader& file) {
+  const auto key = [&](const std::string& field) { return name() + "." + field; };
+  previous_dt_ = file.scalar(key("previous_dt"));
+  steps_ = file.integer(key("steps"));
+  const std::size_t owned = particles_.owned();
+  const GlobalOrder order(mesh_->comm, std::span(particles_.ids).first(owned), mesh_->global_nodes);
+  for (Column& column : particles_.columns())
+    if (column.kept)
+      file.array(key(column.name), order,
+                 std::span(column.values).first(owned * static_cast<std::size_t>(column.components)),
+                 column.components);
+  formulation_->load(file);
+  loaded_ = true;
+  if (!contact_) return;
+  std::vector<GlobalId> ids;
+  for (const LocalIndex n : mesh_->owned_nodes) ids.push_back(mesh_->node_ids[static_cast<std::size_t>(n)]);
+  std::vector<double> work(ids.size()), slip(3 * ids.size());
+  const GlobalOrder nodes(mesh_->comm, ids, mesh_->global_nodes);
+  file.array(key("contact_work"), nodes, work, 1);
+  file.array(key("contact_slip"), nodes, slip, 3);
+  ContactFields* const fields = contact_->fields();
+  for (std::size_t k = 0; k < ids.size(); ++k) {
+    const auto i = static_cast<std::size_t>(mesh_->owned_nodes[k]);
+    contact_->node_work()[i] = work[k];
+    for (std::size_t c = 0; fields && c < 3; ++c) fields->slip[i][c] = slip[3 * k + c];
+  }
+}
+
+}  // namespace tenon

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Everything that a user may say about particles.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "components/materials/material.hpp"
+#include "components/sph/particle_decomposition.hpp"
+#include "components/sph/particle_domain.hpp"
+#include "framework/base/space_time_function.hpp"
+#include "framework/base/time_function.hpp"
+#include "framework/base/types.hpp"
+
+namespace tenon {
+
+enum class SphKernelKind { wendland_c2, wendland_c4, cubic_spline, quintic_spline };
+
+enum class SphFormulation {
+  fluid,            ///< weakly compressible: pressure from density alone
+  gas,              ///< compressible, with an energy equation: gases, shocks in anything with an equation of state
+  solid,            ///< strength, on the present neighbours (updated Lagrangian, corrected gradients)
+  total_lagrangian  ///< strength, on the neighbours of the start
+};
+
+/// Particles of one block of the mesh.
+struct SphBody {
+  std::string name;
+  MaterialDescription material;
+  bool wall = false;                                     ///< does not feel forces: stands still, or moves as told
+  std::array<TimeFunction, 3> velocity;                  ///< of a wall, m/s
+  std::array<SpaceTimeFunction, 3> initial_velocity;     ///< m/s, of the places at the start
+  std::optional<SpaceTimeFunction> initial_pressure;     ///< Pa; the density follows from it
+  std::optional<SpaceTimeFunction> initial_density;      ///< kg/m^3; else that of the material
+  std::optional<SpaceTimeFunction> initial_energy;       ///< J/kg, of gases
+  std::optional<SpaceTimeFunction> initial_temperature;  ///< K
+};
+
+/// Artificial viscosity [Mon92]: alpha and beta with the signal speed, switched off where nothing is compressed.
+struct ArtificialViscosity {
+  enum class Switch { none, balsara, cullen_dehnen } limiter = Switch::none;
+  std::optional<double> alpha, beta;  ///< else what suits the formulation
+};
+
+struct FluidOptions {
+  enum class Viscosity { artificial, morris, monaghan } viscosity = Viscosity::artificial;
+  double density_diffusion = 0.1;  ///< delta of delta-SPH [MC09]; 0: none
+  enum class Shifting { none, shifting, transport_velocity } shifting = Shifting::none;
+};
+
+struct SphTimeStep {
+  double cfl = 0.25;              ///< of smoothing length over signal speed
+  std::optional<double> fixed;    ///< s
+  std::optional<double> maximum;  ///< s
+};
+
+struct SphOptions {
+  int dimension = 3;  ///< 2: z is left alone, and masses are per metre; 1: x only
+  SphFormulation formulation = SphFormulation::fluid;
+  SphKernelKind kernel = SphKernelKind::wendland_c2;
+  double smoothing = 1.3;               ///< smoothing length over the spacing of particles
+  bool variable_smoothing = false;      ///< h follows the density: h = smoothing (m/rho)^(1/d)
+  std::vector<SphBody> bodies;          ///< every block of the mesh, in its order
+  std::array<TimeFunction, 3> gravity;  ///< m/s^2
+  ParticleDomain domain;
+  ArtificialViscosity artificial_viscosity;
+  double artificial_conduction = 0;  ///< alpha_u of gases [Pri08]: heat across jumps of energy, 0 none, 1 full
+  FluidOptions fluid;
+  SphTimeStep time_step;
+  double skin = 0.1;  ///< of the support: how far lists reach beyond it
+  bool always_search = false;
+
+  /// For programs; a scene cannot give it: shifts each particle at the start (m), by its place.
+  std::function<Vec3(const Vec3&)> displaced;
+  /// Likewise: velocity at the start (m/s), added to that of the body.
+  std::function<Vec3(const Vec3&)> initial_velocity_function;
+};
+
+}  // namespace tenon

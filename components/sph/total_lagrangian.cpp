@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Solids, total Lagrangian.
+#include "components/sph/formulation.hpp"
+
+namespace tenon {
+
+std::unique_ptr<Formulation> make_total_lagrangian(const SphContext& context) {
+  throw Error(ExitCode::usage, context.name + ": this formulation does not exist");
+}
+
+}  // namespace tenon

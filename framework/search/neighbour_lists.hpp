@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which points are within reach of which: lists that stay good while nobody has moved far.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "framework/base/types.hpp"
+
+namespace tenon {
+
+/// Cubic cells over all of space, whose number gives points their canonical order: by cell (z, then y, then x), then by
+/// id, then by image. It is the same on any number of ranks.
+class CellGrid {
+ public:
+  /// Cells of edge `size`, m.
+  explicit CellGrid(double size = 1) : scale_(1 / size) {}
+  using Key = std::uint64_t;
+  /// Points beyond a million cells from the origin count as there; those that are not finite come last.
+  Key key(const Vec3& x) const { return part(x[2]) << 2 * bits | part(x[1]) << bits | part(x[0]); }
+  /// The key of the cell one further along x, y and z.
+  static constexpr Key step_x = 1, step_y = Key{1} << 21, step_z = Key{1} << 42;
+
+ private:
+  static constexpr int bits = 21;
+  static constexpr double half = 1 << 20;
+  // Never the first or the last cell of a row: what is beside a cell is never in another row.
+  Key part(double x) const {
+    const double cell = x * scale_;
+    if (!(cell > 1 - half)) return cell == cell ? 1 : static_cast<Key>(2 * half) - 2;
+    const double place = cell < half - 2 ? cell : half - 2;
+    return static_cast<Key>(static_cast<std::int64_t>(place + half));
+  }
+  double scale_;
+};
+
+/// Points that neighbour lists are made of: those that this rank owns, in canonical order, then copies of others in
+/// any.
+struct ListedPoints {
+  std::span<const Vec3> places;   ///< m
+  std::span<const double> reach;  ///< m: two points meet when nearer than the greater of theirs
+  std::span<const GlobalId> ids;
+  std::span<const std::uint8_t> image;  ///< which copy of the point it is; 0 for the point itself
+  std::size_t owned = 0;
+};
+
+/// Verlet lists [Ver67]: for each owned point all others nearer than the greater of both reaches and a skin, in
+/// canonical order. Local. Nothing is missed until the ways of two points add up to the skin. Memory grows and stays.
+class NeighbourLists {
+ public:
+  /// `skin` in m. Every rank has the same `greatest_reach`, m: it and the skin are the edge of a cell.
+  void build(const ListedPoints& points, double greatest_reach, double skin);
+  /// The same cells and order, with the pairs as they are now: for runs that trust no skin.
+  void build_again(const ListedPoints& points, double skin);
+
+  /// Places in the arrays of the points, in canonical order; without the point itself.
+  std::span<const LocalIndex> of(std::size_t owned) const {
+    return std::span(list_).subspan(begin_[owned], begin_[owned + 1] - begin_[owned]);
+  }
+  std::size_t pairs() const { return begin_.empty() ? 0 : begin_.back(); }
+  std::size_t longest() const { return longest_; }
+  std::int64_t memory() const;
+
+  static CellGrid cells(double greatest_reach, double skin) { return CellGrid(greatest_reach + skin); }
+
+ private:
+  void sort(const ListedPoints& points, const CellGrid& grid);
+  void fill(const ListedPoints& points, double skin);
+  void append(std::size_t place, const ListedPoints& points, double skin);
+
+  static constexpr std::size_t rows = 9;
+  std::vector<std::size_t> begin_;
+  std::vector<LocalIndex> list_;
+  std::size_t longest_ = 0;
+  // In canonical order, owned and copies.
+  std::vector<LocalIndex> order_;
+  std::vector<CellGrid::Key> keys_;
+  std::vector<double> x_, y_, z_, reach_;
+  std::array<std::size_t, rows> first_{}, last_{};
+};
+
+}  // namespace tenon
