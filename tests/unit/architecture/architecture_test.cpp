@@ -38,6 +38,7 @@ const std::map<std::string, std::set<std::string>> allowed = [] {
   below("components/mechanics", "framework/simulation");
   rooms["components/mechanics"].insert({"components/materials", "framework/scene"});
   rooms["components/thermal"] = rooms["components/mechanics"];
+  rooms["components/sph"] = rooms["components/mechanics"];
   below("components/contact", "framework/simulation");
   rooms["components/contact"].insert({"components/contact_geometry", "framework/scene"});
   return rooms;
