@@ -39,6 +39,7 @@ struct MaterialDescription {
   std::optional<FailureCriterion> failure;
   WholeLawParameters whole_law{};                      ///< rubber, orthotropic, foam, soil
   std::optional<EquationOfState> equation_of_state{};  ///< pressure in place of the elastic one
+  std::optional<double> viscosity{};                   ///< of fluids, Pa s
 };
 
 }  // namespace tenon

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <deque>
+#include <new>
 #include <span>
 #include <string>
 #include <vector>
@@ -22,13 +23,27 @@ enum class ColumnKind : std::uint8_t {
   matrix     ///< nine numbers, row by row: mirrored
 };
 
+/// Whole cache lines, so that a record of several numbers straddles none that it need not.
+template <typename T>
+struct CacheLineAllocator {
+  using value_type = T;
+  static constexpr std::align_val_t line{64};
+  CacheLineAllocator() = default;
+  template <typename U>
+  explicit CacheLineAllocator(const CacheLineAllocator<U>&) {}
+  T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), line)); }
+  void deallocate(T* p, std::size_t) { ::operator delete(p, line); }
+  bool operator==(const CacheLineAllocator&) const { return true; }
+};
+using ColumnValues = std::vector<double, CacheLineAllocator<double>>;
+
 /// One array of the particles of this rank: those that it owns, then ghosts.
 struct Column {
   std::string name;
   ColumnKind kind = ColumnKind::scalar;
-  int components = 1;
-  bool kept = true;  ///< goes where its particle goes, and into checkpoints; what is not kept is found again
-  std::vector<double> values;
+  int components = 1;  ///< of a position or a vector: further ones are scalars that stand behind it
+  bool kept = true;    ///< goes where its particle goes, and into checkpoints; what is not kept is found again
+  ColumnValues values;
 
   double* data() { return values.data(); }
   const double* data() const { return values.data(); }

@@ -14,14 +14,14 @@ namespace tenon {
 namespace {
 
 /// An array that travels: from the first entries of one to all of another.
-template <typename T>
-ExchangeItem travelling(const std::vector<T>& from, std::vector<T>& to, std::size_t components = 1) {
+template <typename Values>
+ExchangeItem travelling(const Values& from, Values& to, std::size_t components = 1) {
   return {reinterpret_cast<const std::byte*>(from.data()), reinterpret_cast<std::byte*>(to.data()),
-          components * sizeof(T)};
+          components * sizeof(from[0])};
 }
 
-template <typename T>
-void permute(std::vector<T>& values, std::span<const LocalIndex> order, std::size_t components, std::vector<T>& room) {
+template <typename Values>
+void permute(Values& values, std::span<const LocalIndex> order, std::size_t components, Values& room) {
   room.resize(order.size() * components);
   for (std::size_t i = 0; i < order.size(); ++i)
     std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(order[i]) * components),
@@ -130,7 +130,7 @@ void ParticleDecomposition::migrate() {
   std::vector<GlobalId> ids(arriving);
   std::vector<std::int32_t> body(arriving), home_rank(arriving);
   std::vector<LocalIndex> home_node(arriving);
-  std::vector<std::vector<double>> values;
+  std::vector<ColumnValues> values;
   std::vector<ExchangeItem> items{travelling(data_.ids, ids), travelling(data_.body, body),
                                   travelling(data_.home_rank, home_rank), travelling(data_.home_node, home_node)};
   values.reserve(data_.columns().size());
@@ -167,7 +167,7 @@ void ParticleDecomposition::sort() {
   for (std::size_t i = 0; i < owned; ++i)
     order[i] = places[i].index, sorted = sorted && order[i] == static_cast<LocalIndex>(i);
   if (sorted) return;
-  std::vector<double> room;
+  ColumnValues room;
   for (Column& column : data_.columns())
     if (column.kept) permute(column.values, order, static_cast<std::size_t>(column.components), room);
   std::vector<GlobalId> id_room;

@@ -45,7 +45,6 @@ Sph::Sph(std::string name, std::shared_ptr<const Mesh> mesh, SphOptions options)
   for (const SphBody& body : options_.bodies) has_walls_ = has_walls_ || body.wall;
   if (has_gravity_) gravity_work_ = &particles_.add("gravity_work", ColumnKind::scalar, 1, true);
   if (has_walls_) boundary_work_ = &particles_.add("boundary_work", ColumnKind::scalar, 1, true);
-  phases_ = {&phase("forces"), &phase("update"), &phase("order and lists"), &phase("exchange")};
   place_particles();
 }
 
@@ -99,6 +98,7 @@ void Sph::set_velocities() {
 }
 
 void Sph::initialize() {
+  phases_ = {&phase("forces"), &phase("update"), &phase("order and lists"), &phase("exchange")};
   if (loaded_) {
     decomposition_->arrange();
   } else {

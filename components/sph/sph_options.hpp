@@ -46,9 +46,17 @@ struct ArtificialViscosity {
 };
 
 struct FluidOptions {
+  /// Artificial: by alpha, for stability alone; the others take the viscosity of the material, and resist all shear
+  /// [MFZ97] or approach alone, which keeps angular momentum [Mon05].
   enum class Viscosity { artificial, morris, monaghan } viscosity = Viscosity::artificial;
-  double density_diffusion = 0.1;  ///< delta of delta-SPH [MC09]; 0: none
+  double density_diffusion = 0.1;     ///< delta of delta-SPH [MC09]; 0: none
+  bool hydrostatic_diffusion = true;  ///< what gravity makes of density does not diffuse [FDVD19]
+  /// Particles are carried from where they crowd: by a share of their speed, not at free surfaces [LXSR12]; or by a
+  /// background pressure, in flows without free surfaces [AHA13].
   enum class Shifting { none, shifting, transport_velocity } shifting = Shifting::none;
+  double shifting_strength = 1;    ///< over what is usual
+  double background_pressure = 0;  ///< Pa: added to every pressure; for flows without free surfaces
+  bool slip = true;                ///< walls let fluid pass along them
 };
 
 struct SphTimeStep {

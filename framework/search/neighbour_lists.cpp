@@ -67,6 +67,7 @@ void NeighbourLists::fill(const ListedPoints& points, double skin) {
     longest_ = std::max(longest_, list_.size() - begin_.back());
     begin_.push_back(list_.size());
   }
+  list_.resize(list_.size() + wide_pack_width, 0);  // what reads whole packs may read on
 }
 
 void NeighbourLists::append(std::size_t place, const ListedPoints&, double skin) {

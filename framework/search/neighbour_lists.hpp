@@ -54,7 +54,8 @@ class NeighbourLists {
   /// The same cells and order, with the pairs as they are now: for runs that trust no skin.
   void build_again(const ListedPoints& points, double skin);
 
-  /// Places in the arrays of the points, in canonical order; without the point itself.
+  /// Places in the arrays of the points, in canonical order; without the point itself. Seven more may be read behind
+  /// them: places of some points.
   std::span<const LocalIndex> of(std::size_t owned) const {
     return std::span(list_).subspan(begin_[owned], begin_[owned + 1] - begin_[owned]);
   }
