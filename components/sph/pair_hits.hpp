@@ -65,7 +65,7 @@ struct PairHits {
         const WidePack reach_j = (support * hj) * (support * hj);
         reach = greater_of<WidePack>(reach_i, reach_j);
       }
-      unsigned chosen = bits(r2 < reach);
+      unsigned chosen = where_less(r2, reach);
       if (size - first < wide_pack_width) chosen &= (1u << (size - first)) - 1;
       store_chosen(to + n, at, chosen);
       store_chosen(to_x + n, a, chosen);

@@ -24,8 +24,13 @@ TENON_KERNEL void store(double* to, const WidePack& p) {
 }
 
 TENON_KERNEL WidePack square_root(const WidePack& x) {
+#ifdef __AVX512F__
+  constexpr int rounding_of_the_moment = 4;
+  return __builtin_ia32_sqrtpd512_mask(x, WidePack{}, 0xff, rounding_of_the_moment);
+#else
   return WidePack{__builtin_sqrt(x[0]), __builtin_sqrt(x[1]), __builtin_sqrt(x[2]), __builtin_sqrt(x[3]),
                   __builtin_sqrt(x[4]), __builtin_sqrt(x[5]), __builtin_sqrt(x[6]), __builtin_sqrt(x[7])};
+#endif
 }
 
 /// Bit l is set where it is so at point l.
@@ -37,6 +42,16 @@ TENON_KERNEL unsigned bits(const WideMask& mask) {
   const PackMask low = __builtin_shufflevector(mask, mask, 0, 1, 2, 3);
   const PackMask high = __builtin_shufflevector(mask, mask, 4, 5, 6, 7);
   return bits(low) | bits(high) << pack_width;
+#endif
+}
+
+/// Bit l is set where a < b.
+TENON_KERNEL unsigned where_less(const WidePack& a, const WidePack& b) {
+#ifdef __AVX512F__
+  constexpr int less = 1, rounding_of_the_moment = 4;
+  return static_cast<unsigned char>(__builtin_ia32_cmppd512_mask(a, b, less, -1, rounding_of_the_moment));
+#else
+  return bits(a < b);
 #endif
 }
 

@@ -39,8 +39,9 @@ void NeighbourLists::sort(const ListedPoints& points, const CellGrid& grid) {
 }
 
 void NeighbourLists::fill(const ListedPoints& points, double skin) {
-  const std::size_t count = order_.size(), room = count + wide_pack_width;
+  const std::size_t count = keys_.size(), room = count + wide_pack_width;
   for (std::vector<double>* const array : {&x_, &y_, &z_}) array->resize(room);
+  order_.resize(room, 0);
   reach_.resize(room);
   for (std::size_t m = 0; m < count; ++m) {
     const auto i = static_cast<std::size_t>(order_[m]);
@@ -49,7 +50,7 @@ void NeighbourLists::fill(const ListedPoints& points, double skin) {
   }
   begin_.assign(1, 0);
   begin_.reserve(points.owned + 1);
-  list_.clear();
+  std::size_t end = 0;
   longest_ = 0;
   first_.fill(0), last_.fill(0);
   CellGrid::Key cell = 0;
@@ -63,29 +64,39 @@ void NeighbourLists::fill(const ListedPoints& points, double skin) {
       while (last_[row] < count && keys_[last_[row]] <= middle + CellGrid::step_x) ++last_[row];
     }
     cell = keys_[m];
-    append(m, points, skin);
-    longest_ = std::max(longest_, list_.size() - begin_.back());
-    begin_.push_back(list_.size());
+    end = append(m, skin, end);
+    longest_ = std::max(longest_, end - begin_.back());
+    begin_.push_back(end);
   }
-  list_.resize(list_.size() + wide_pack_width, 0);  // what reads whole packs may read on
+  list_.resize(std::max(list_.size(), end + wide_pack_width));
+  std::fill_n(list_.begin() + static_cast<std::ptrdiff_t>(end), wide_pack_width, 0);  // whole packs may be read
 }
 
-void NeighbourLists::append(std::size_t place, const ListedPoints&, double skin) {
+// Returns where the next list begins. The array keeps its greatest size, so nothing is written twice.
+std::size_t NeighbourLists::append(std::size_t place, double skin, std::size_t end) {
   const WidePack x = broadcast<WidePack>(x_[place]), y = broadcast<WidePack>(y_[place]),
                  z = broadcast<WidePack>(z_[place]), reach = broadcast<WidePack>(reach_[place]);
+  std::size_t most = wide_pack_width;
+  for (std::size_t row = 0; row < rows; ++row) most += last_[row] - first_[row];
+  if (list_.size() < end + most) list_.resize(std::max(end + most, 2 * list_.size()));
+  const double *const all_x = x_.data(), *const all_y = y_.data(), *const all_z = z_.data(),
+                      *const reaches = reach_.data();
+  const LocalIndex* const order = order_.data();
+  LocalIndex* const list = list_.data();
   for (std::size_t row = 0; row < rows; ++row) {
-    for (std::size_t m = first_[row]; m < last_[row]; m += wide_pack_width) {
-      const WidePack dx = load_wide(&x_[m]) - x, dy = load_wide(&y_[m]) - y, dz = load_wide(&z_[m]) - z;
-      const WidePack together = greater_of<WidePack>(load_wide(&reach_[m]), reach) + skin;
-      unsigned near = bits(dx * dx + dy * dy + dz * dz < together * together);
-      const std::size_t left = last_[row] - m;
+    const std::size_t last = last_[row];
+    for (std::size_t m = first_[row]; m < last; m += wide_pack_width) {
+      const WidePack dx = load_wide(all_x + m) - x, dy = load_wide(all_y + m) - y, dz = load_wide(all_z + m) - z;
+      const WidePack together = greater_of<WidePack>(load_wide(reaches + m), reach) + skin;
+      unsigned near = where_less(dx * dx + dy * dy + dz * dz, together * together);
+      const std::size_t left = last - m, self = place - m;
       if (left < wide_pack_width) near &= (1u << left) - 1;
-      for (; near != 0; near &= near - 1) {
-        const std::size_t other = m + static_cast<std::size_t>(std::countr_zero(near));
-        if (other != place) list_.push_back(order_[other]);
-      }
+      if (self < wide_pack_width) near &= ~(1u << self);
+      store_chosen(list + end, order + m, near);
+      end += static_cast<std::size_t>(std::popcount(near));
     }
   }
+  return end;
 }
 
 std::int64_t NeighbourLists::memory() const {

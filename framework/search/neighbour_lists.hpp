@@ -68,7 +68,7 @@ class NeighbourLists {
  private:
   void sort(const ListedPoints& points, const CellGrid& grid);
   void fill(const ListedPoints& points, double skin);
-  void append(std::size_t place, const ListedPoints& points, double skin);
+  std::size_t append(std::size_t place, double skin, std::size_t end);
 
   static constexpr std::size_t rows = 9;
   std::vector<std::size_t> begin_;
