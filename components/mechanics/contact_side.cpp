@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "components/mechanics/contact_side.hpp"
 
+#include <Eigen/Dense>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -70,7 +72,7 @@ void ContactSide::watch(std::span<const LocalIndex> nodes) {
       continue;
     }
     const double* f = parts_.nodes.force[n].v;
-    former[i] = parts_.nodes.velocity()[n] + kick_ * moved(mobility(all[i]), {f[0], f[1], f[2]});
+    former[i] = parts_.nodes.velocity()[n] + kick_ * moved(undamped(all[i]), {f[0], f[1], f[2]});
   }
   for (const LocalIndex n : watched_) place_[static_cast<std::size_t>(n)] = -1;
   watched_ = std::move(all), chosen_ = nodes.size();
@@ -97,7 +99,7 @@ void ContactSide::begin(double kick) {
   }
 }
 
-Mobility ContactSide::mobility(LocalIndex node) const {
+Mobility ContactSide::undamped(LocalIndex node) const {
   Mobility m;
   if (!parts_.rigid.empty() && parts_.rigid.holds(node)) {
     m.body = parts_.rigid.body_of(node);
@@ -119,6 +121,26 @@ Mobility ContactSide::mobility(LocalIndex node) const {
   return m;
 }
 
+// Implicit dampers take their share of an impulse: (m + kick C/2) dv = p in the directions that are free.
+Mobility ContactSide::mobility(LocalIndex node) const {
+  Mobility m = undamped(node);
+  const double mass = parts_.nodes.mass[static_cast<std::size_t>(node)];
+  if (m.body >= 0 || !(mass > 0) || parts_.ties.index_of(node) >= 0) return m;
+  const std::optional<SymmetricTensor<double>> damping = parts_.loads.damping(node, parts_.nodes);
+  if (!damping) return m;
+  Eigen::Matrix3d free, c;
+  const std::array<double, 6>& w = m.w;
+  free << w[0], w[3], w[5], w[3], w[1], w[4], w[5], w[4], w[2];
+  free *= mass;
+  c << damping->xx, damping->xy, damping->zx, damping->xy, damping->yy, damping->yz, damping->zx, damping->yz,
+      damping->zz;
+  const Eigen::Matrix3d held = Eigen::Matrix3d::Identity() - free;
+  const Eigen::Matrix3d resisting = free * (mass * Eigen::Matrix3d::Identity() + 0.5 * kick_ * c) * free + mass * held;
+  const Eigen::Matrix3d inverse = free * resisting.inverse() * free;
+  m.w = {inverse(0, 0), inverse(1, 1), inverse(2, 2), inverse(0, 1), inverse(1, 2), inverse(2, 0)};
+  return m;
+}
+
 void ContactSide::mobilities(std::span<const LocalIndex> nodes, std::span<Mobility> mobility) const {
   for (std::size_t i = 0; i < nodes.size(); ++i) mobility[i] = this->mobility(nodes[i]);
 }
@@ -127,7 +149,11 @@ void ContactSide::push_node(LocalIndex node, const Vec3& p) {
   const auto n = static_cast<std::size_t>(node);
   assert(place_[n] >= 0);
   const auto i = static_cast<std::size_t>(place_[n]);
-  change_velocity(node, moved(mobility(node), p));
+  const Vec3 dv = moved(mobility(node), p);
+  change_velocity(node, dv);
+  // The work that nodes.force has done so far, and that of what dampers add to it.
+  const Vec3 more = parts_.loads.resist(node, dv, parts_.nodes);
+  parts_.nodes.internal_work[n] += 0.5 * kick_ * dot(more, former_[i] + parts_.nodes.velocity()[n]);
   const Vec3 mean = 0.5 * (former_[i] + parts_.nodes.velocity()[n]);
   work_[n] += dot(p, mean);
   parts_.conditions.react(node, p, mean);

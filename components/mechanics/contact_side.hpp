@@ -4,6 +4,7 @@
 
 #include "components/mechanics/contact_faces.hpp"
 #include "components/mechanics/erosion.hpp"
+#include "components/mechanics/loads.hpp"
 #include "components/mechanics/nodal_conditions.hpp"
 #include "components/mechanics/rigid_bodies.hpp"
 #include "components/mechanics/ties.hpp"
@@ -28,6 +29,7 @@ class ContactSide final : public ContactParty {
     RigidBodies& rigid;
     const Ties& ties;
     const LooseNodes* loose;  // null where no element can die
+    Loads& loads;
   };
   /// Collective.
   explicit ContactSide(const Parts& parts);
@@ -72,6 +74,7 @@ class ContactSide final : public ContactParty {
 
  private:
   static std::vector<char> tied(const Parts& parts);
+  Mobility undamped(LocalIndex node) const;
   Mobility mobility(LocalIndex node) const;
   void push_node(LocalIndex node, const Vec3& impulse);
   void change_velocity(LocalIndex node, const Vec3& dv);

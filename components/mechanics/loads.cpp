@@ -172,6 +172,25 @@ void Loads::apply_damping(NodalState& nodes, double kick) {
   }
 }
 
+std::optional<SymmetricTensor<double>> Loads::damping(LocalIndex node, const NodalState& nodes) const {
+  const NodalDamping::Entry* const entry = damping_.find(node);
+  if (!entry) return std::nullopt;
+  return damping_.damper(*entry, nodes) + entry->absorbing;
+}
+
+Vec3 Loads::resist(LocalIndex node, const Vec3& dv, NodalState& nodes) {
+  const NodalDamping::Entry* const entry = damping_.find(node);
+  if (!entry) return {};
+  const auto n = static_cast<std::size_t>(node);
+  const Vec3 damper = 0.5 * times(damping_.damper(*entry, nodes), dv), absorbing = 0.5 * times(entry->absorbing, dv);
+  for (std::size_t c = 0; c < 3; ++c) {
+    if (damping_row_) rows_[*damping_row_].force[n].v[c] -= damper[c];
+    if (absorbed_row_) rows_[*absorbed_row_].force[n].v[c] -= absorbing[c];
+    nodes.force[n].v[c] += damper[c] + absorbing[c];
+  }
+  return damper + absorbing;
+}
+
 void Loads::remember(const NodalState& nodes) {
   std::ranges::copy(nodes.velocity(), before_.begin());
   if (!damping_moment_.empty()) std::ranges::copy(nodes.spin(), spin_before_.begin());

@@ -36,6 +36,13 @@ class Loads {
   /// Local.
   void book(const NodalState& nodes, double kick);
 
+  /// C of all that resists the velocity of a node implicitly, kg/s; nothing if nothing does.
+  std::optional<SymmetricTensor<double>> damping(LocalIndex node, const NodalState& nodes) const;
+  /// Local, between the halves of a step: something else changes the velocity of an owned node by dv (m/s), which
+  /// dampers resist by C dv/2. Their rows and the force of the state follow; returns that change of the resisting
+  /// force, N.
+  Vec3 resist(LocalIndex node, const Vec3& dv, NodalState& nodes);
+
   /// The stable step where the elements alone allow `step`. With omega = 2/step and, of springs and explicit dampers,
   /// omega_s and c: dt^2/4 (omega^2 + omega_s^2) + dt/2 (c + beta omega^2) <= 1.
   double stable_step(double step) const;

@@ -87,7 +87,7 @@ ContactParty* Mechanics::contact_party() {
                                      "their own have none; use time_step.subcycling: 1");
   if (contact_) return contact_.get();
   contact_ = std::make_unique<ContactSide>(
-      ContactSide::Parts{*mesh_, options_, groups_, nodes_, conditions_, *rigid_, *ties_, loose_.get()});
+      ContactSide::Parts{*mesh_, options_, groups_, nodes_, conditions_, *rigid_, *ties_, loose_.get(), *loads_});
   if (contact_->left_out() > 0)
     warnings_.push_back(fmt::format("{}: contact leaves out {} faces all of whose nodes are tied, or tied to", name(),
                                     contact_->left_out()));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "components/mechanics/nodal_damping.hpp"
 
+#include <algorithm>
+
 namespace tenon {
 
 namespace {
@@ -35,10 +37,20 @@ NodalDamping::NodalDamping(double mass_proportional, std::vector<Entry> entries,
   }
 }
 
+const NodalDamping::Entry* NodalDamping::find(LocalIndex node) const {
+  const auto found = std::ranges::lower_bound(entries_, node, {}, &Entry::node);
+  return found != entries_.end() && found->node == node ? &*found : nullptr;
+}
+
+SymmetricTensor<double> NodalDamping::damper(const Entry& entry, const NodalState& nodes) const {
+  const double own = mass_proportional_ * nodes.mass[static_cast<std::size_t>(entry.node)];
+  return entry.dashpot + SymmetricTensor<double>{own, own, own, 0, 0, 0};
+}
+
 NodalDamping::Forces NodalDamping::forces(const Entry& entry, const NodalState& nodes, double kick) const {
   const auto n = static_cast<std::size_t>(entry.node);
-  const double a = 0.5 * kick * nodes.inverse_mass[n], own = mass_proportional_ * nodes.mass[n];
-  const SymmetricTensor<double> damper = entry.dashpot + SymmetricTensor<double>{own, own, own, 0, 0, 0};
+  const double a = 0.5 * kick * nodes.inverse_mass[n];
+  const SymmetricTensor<double> damper = this->damper(entry, nodes);
   const Vec3 undamped = mean_without_damping(nodes.velocity()[n], nodes.force[n], a);
   const Vec3 mean = damped_mean(damper + entry.absorbing, a, undamped);
   return {-1.0 * times(damper, mean), -1.0 * times(entry.absorbing, mean)};

@@ -33,6 +33,10 @@ class NodalDamping {
   };
   /// Forces for a kick (s) of a node whose resisting force, without these, is in the state.
   Forces forces(const Entry& entry, const NodalState& nodes, double kick) const;
+  /// The entry of a node; null if nothing damps it.
+  const Entry* find(LocalIndex node) const;
+  /// C of an entry without its absorbing part, kg/s.
+  SymmetricTensor<double> damper(const Entry& entry, const NodalState& nodes) const;
   /// Moment -C (w- + w+)/2, N m, by the mass-proportional part on a node that turns.
   Vec3 moment(const NodalState& nodes, std::size_t node, double kick) const;
   bool damps_spin() const { return mass_proportional_ > 0; }

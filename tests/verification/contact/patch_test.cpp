@@ -65,7 +65,7 @@ Result press(const Stack& stack, const char* what) {
   double before = 0, force = 0, from = 0;
   run.run(run.simulation().end_time(), [&] {
     const double p = run.momentum("over")[2];
-    force = pressure * side * side + (p - before) / (run.time() - from) + 2 * slowest * p;
+    force = pressure * side * side + (p - before) / (run.time() - from) + slowest * (p + before);
     before = p, from = run.time();
   });
   const Mesh& mesh = run.body().mesh();
@@ -87,6 +87,9 @@ Result press(const Stack& stack, const char* what) {
   EXPECT_LE(run.angular_residual(), 1e-13);
   EXPECT_NEAR(r.top, -1e-4, 0.005e-4);
   EXPECT_LE(r.deviation, 0.08);
+  // The damper takes none of the force that contact tells: it would be 18 %. (Where the run still settles, the load
+  // that the change of momentum is compared with is off by less than half a percent.)
+  EXPECT_NEAR(norm(run.force("under_over")) / r.resultant, 1, 5e-3) << what;
   return r;
 }
 

@@ -37,7 +37,9 @@ inline void expect_same(const Ending& a, const Ending& b, const std::string& wha
 }
 
 inline void check_tube(const Tube& tube) {
-  const std::string file = "contact_tube_" + std::to_string(communicator().size()) + ".h5";
+  // Of this tube: the short and the long test may run side by side.
+  const std::string file =
+      "contact_tube_" + std::to_string(tube.around) + "_" + std::to_string(communicator().size()) + ".h5";
   const ContactScene scene = crush(tube);
   ContactRun run(scene);
   bool saved = false;
