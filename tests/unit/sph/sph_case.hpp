@@ -73,6 +73,8 @@ class SphRun {
   }
 
   Sph& body() { return *body_; }
+  const ParticleData& particles() const { return body_->particles(); }
+  const Communicator& comm() const { return comm_; }
   Simulation& simulation() { return simulation_; }
   double time() const { return simulation_.time(); }
   void step() { simulation_.step(); }
