@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pressure as a function of volume and energy: Mie-Gruneisen and polynomial.
+// Pressure as a function of volume and energy: condensed matter, gases, liquids, detonation products.
 #pragma once
 
 #include <limits>
@@ -9,7 +9,8 @@
 
 namespace tenon {
 
-/// p = A(V) + B(V) e: what a step needs. V = V/V0; e is the energy per undeformed volume, J/m^3; p in Pa.
+/// p = A(V) + B(V) e: what a step needs. V = V/V0; e is the energy per undeformed volume, J/m^3; p in Pa. Of a law that
+/// is not linear in the energy: the tangent at one energy, which gives the exact pressure there.
 struct PressureLaw {
   LaneValues A, B;            ///< Pa, 1
   LaneValues dA_dmu, dB_dmu;  ///< over mu = 1/V - 1
@@ -41,8 +42,57 @@ struct PolynomialState {
   void evaluate(const LaneValues& volume, PressureLaw& law) const;
 };
 
+/// p = (gamma - 1) (1 + mu) e, and none where the energy has become negative by errors of a scheme.
+struct IdealGas {
+  double gamma = 1.4;
+  double initial_energy = 0;  ///< J/m^3
+
+  double bulk_modulus() const { return gamma * (gamma - 1) * initial_energy; }
+  void evaluate(const LaneValues& volume, const LaneValues& energy, PressureLaw& law) const;
+};
+
+/// Water and its like: p = background + rho0 c^2/gamma ((rho/rho0)^gamma - 1).
+struct TaitState {
+  double density = 0;  ///< rho0, kg/m^3
+  double c = 0;        ///< speed of sound at rho0, m/s
+  double gamma = 7;
+  double background = 0;      ///< pressure at rho0, Pa
+  double initial_energy = 0;  ///< J/m^3; no pressure depends on it
+
+  double bulk_modulus() const { return density * c * c; }
+  void evaluate(const LaneValues& volume, PressureLaw& law) const;
+};
+
+/// Detonation products [LHK68]: p = A (1 - w/(R1 V)) e^(-R1 V) + B (1 - w/(R2 V)) e^(-R2 V) + w e/V.
+struct JwlState {
+  double A = 0, B = 0;  ///< Pa
+  double R1 = 0, R2 = 0, omega = 0;
+  double initial_energy = 0;  ///< of the explosive, J/m^3
+
+  double bulk_modulus() const;
+  void evaluate(const LaneValues& volume, PressureLaw& law) const;
+};
+
+/// [Til62], for impacts up to vaporization. With eta = 1 + mu, u = e/rho0 and w = 1 + u/(E0 eta^2):
+///   compressed, or cold (u < incipient):    p = (a + b/w) rho u + A mu + B mu^2
+///   expanded and hot (u > complete):        p = a rho u + (b rho u/w + A mu e^(-beta (1/eta - 1)))
+///                                                         e^(-alpha (1/eta - 1)^2)
+/// and between the two a mean weighted by the energy. Not linear in the energy.
+struct TillotsonState {
+  double density = 0;  ///< rho0, kg/m^3
+  double a = 0, b = 0;
+  double A = 0, B = 0;  ///< Pa
+  double E0 = 0;        ///< J/kg
+  double alpha = 0, beta = 0;
+  double incipient = 0, complete = 0;  ///< energies of vaporization, J/kg
+  double initial_energy = 0;           ///< J/m^3
+
+  double bulk_modulus() const;
+  void evaluate(const LaneValues& volume, const LaneValues& energy, PressureLaw& law) const;
+};
+
 struct EquationOfState {
-  std::variant<Gruneisen, PolynomialState> law;
+  std::variant<Gruneisen, PolynomialState, IdealGas, TaitState, JwlState, TillotsonState> law;
   double least_pressure = -std::numeric_limits<double>::infinity();  ///< Pa: what tension can pull it to
 
   double initial_energy() const {
@@ -51,8 +101,23 @@ struct EquationOfState {
   double bulk_modulus() const {
     return std::visit([](const auto& l) { return l.bulk_modulus(); }, law);
   }
+  bool linear_in_energy() const { return !std::holds_alternative<TillotsonState>(law); }
+  /// The tangent at these energies, J/m^3.
+  void evaluate(const LaneValues& volume, const LaneValues& energy, PressureLaw& p) const {
+    std::visit(
+        [&](const auto& l) {
+          if constexpr (requires { l.evaluate(volume, energy, p); })
+            l.evaluate(volume, energy, p);
+          else
+            l.evaluate(volume, p);
+        },
+        law);
+  }
+  /// The tangent at the initial energy.
   void evaluate(const LaneValues& volume, PressureLaw& p) const {
-    std::visit([&](const auto& l) { l.evaluate(volume, p); }, law);
+    LaneValues energy;
+    for (double& e : energy) e = initial_energy();
+    evaluate(volume, energy, p);
   }
 };
 

@@ -29,6 +29,10 @@ struct WithPressure {
 
   template <Material M>
   Model model(const M& strength) const {
+    if (description.equation_of_state && !(description.equation_of_state->bulk_modulus() > 0))
+      throw Error(ExitCode::usage, "material '" + description.name +
+                                       "' has no stiffness at the start, which mechanics needs: give its "
+                                       "equation_of_state an initial_energy");
     if (description.equation_of_state)
       return model_of(WithEquationOfState<M>(strength, *description.equation_of_state), description);
     return model_of(strength, description);

@@ -54,11 +54,9 @@ struct WithEquationOfState {
     strength.update(input, stress, own, plastic_work);
     for (int i = 0; i < strength_size; ++i) std::copy_n(own.v[i], lanes, state.v[i]);
     const LaneValues& V = (*input.volume_ratio).v[0];
-    PressureLaw law;
-    state_law.evaluate(V, law);
     const auto &e = input.strain_increment.v, &b = before.v;
     auto& s = stress.v;
-    const double least = state_law.least_pressure;
+    LaneValues known, pressure, found;
 #pragma GCC ivdep
     for (int l = 0; l < lanes; ++l) {
       const double mean_before = (b[0][l] + b[1][l] + b[2][l]) / 3, mean = (s[0][l] + s[1][l] + s[2][l]) / 3;
@@ -67,11 +65,26 @@ struct WithEquationOfState {
       for (int c = 3; c < 6; ++c) work += (b[c][l] + s[c][l]) * e[c][l];
       const double V_before = state.v[volume][l], dV = V[l] - V_before;
       const double heat = input.added_heat ? (*input.added_heat).v[0][l] : 0.0;
-      const double known = state.v[energy][l] + 0.5 * (V[l] + V_before) * work + heat + 0.5 * mean_before * dV;
-      const double free = (law.A[l] + law.B[l] * known) / (1 + 0.5 * law.B[l] * dV);
-      const double p = free > least ? free : least;
-      for (int c = 0; c < 3; ++c) s[c][l] = (s[c][l] - mean) - p;
-      state.v[energy][l] = known - 0.5 * p * dV;
+      known[l] = state.v[energy][l] + 0.5 * (V[l] + V_before) * work + heat + 0.5 * mean_before * dV;
+      found[l] = known[l];
+    }
+    // One Newton step where the pressure is linear in the energy; else the energy has only a short way to go.
+    for (int newton = state_law.linear_in_energy() ? 1 : 4; newton > 0; --newton) {
+      PressureLaw law;
+      state_law.evaluate(V, found, law);
+#pragma GCC ivdep
+      for (int l = 0; l < lanes; ++l) {
+        const double dV = V[l] - state.v[volume][l];
+        const double free = (law.A[l] + law.B[l] * known[l]) / (1 + 0.5 * law.B[l] * dV);
+        pressure[l] = free > state_law.least_pressure ? free : state_law.least_pressure;
+        found[l] = known[l] - 0.5 * pressure[l] * dV;
+      }
+    }
+#pragma GCC ivdep
+    for (int l = 0; l < lanes; ++l) {
+      const double mean = (s[0][l] + s[1][l] + s[2][l]) / 3;
+      for (int c = 0; c < 3; ++c) s[c][l] = (s[c][l] - mean) - pressure[l];
+      state.v[energy][l] = found[l];
       state.v[volume][l] = V[l];
     }
   }
@@ -79,7 +92,7 @@ struct WithEquationOfState {
   /// Bulk modulus of smooth flow -V dp/dV = (1 + mu) (dA/dmu + dB/dmu e) + V B p, and the shear modulus.
   void stiffness(const UpdateInput&, const Batch<6>& stress, const Batch<state_size>& state, Batch<2>& moduli) const {
     PressureLaw law;
-    state_law.evaluate(state.v[volume], law);
+    state_law.evaluate(state.v[volume], state.v[energy], law);
     const double G = strength.elasticity.shear_modulus();
 #pragma GCC ivdep
     for (int l = 0; l < lanes; ++l) {

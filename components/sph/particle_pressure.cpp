@@ -37,16 +37,19 @@ void find_pressures(const SphOptions& options, const ParticleData& particles, co
       const std::int32_t body = particles.body[first + at];
       const MaterialDescription& material = options.bodies[static_cast<std::size_t>(body)].material;
       const EquationOfState& state = *material.equation_of_state;
-      LaneValues volume;
-      for (std::size_t l = 0; l < lanes; ++l)
-        volume[l] = material.density / particles.density[first + std::min(l, count - 1)];
+      LaneValues volume, energies;
+      for (std::size_t l = 0; l < lanes; ++l) {
+        const std::size_t i = first + std::min(l, count - 1);
+        volume[l] = material.density / particles.density[i];
+        energies[l] = energy ? material.density * (*energy)[i] : state.initial_energy();
+      }
       PressureLaw law;
-      state.evaluate(volume, law);
+      state.evaluate(volume, energies, law);
       for (std::size_t l = at; l < count; ++l) {
         const std::size_t i = first + l;
         if (particles.body[i] != body) continue;
         done[l] = true;
-        const double e = energy ? material.density * (*energy)[i] : state.initial_energy();
+        const double e = energies[l];
         const double p = std::max(law.A[l] + law.B[l] * e, state.least_pressure), rho = particles.density[i];
         const double over_density = (law.dA_dmu[l] + law.dB_dmu[l] * e) / material.density;
         const double over_energy = energy ? law.B[l] * material.density : 0;

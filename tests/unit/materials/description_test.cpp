@@ -130,6 +130,29 @@ TEST(MaterialDescription, ReadsEveryLaw) {
             "eqps internal_energy volume_ratio ");
 }
 
+TEST(MaterialDescription, ReadsEveryEquationOfState) {
+  const auto bulk = [](const std::string& text) {
+    const Read r = read(start + "equation_of_state: {" + text + "}\n");
+    EXPECT_FALSE(r.diagnostics.any()) << r.diagnostics.errors().front();
+    EXPECT_THROW(make_material_model(r.material), Error) << "mechanics needs a shear modulus";
+    return r.material.equation_of_state ? r.material.equation_of_state->bulk_modulus() : 0;
+  };
+  const double density = read(start + elastic).material.density;
+  EXPECT_NEAR(bulk("type: gruneisen, c: 4600 m/s, S1: 1.3, gamma0: 1.7"), density * 4600 * 4600, 1);
+  EXPECT_NEAR(bulk("type: linear, c: 1500 m/s, background: 1 bar"), density * 1500 * 1500, 1);
+  EXPECT_NEAR(bulk("type: tait, c: 1500 m/s, gamma: 7, background: 1 bar"), density * 1500 * 1500, 1);
+  EXPECT_NEAR(bulk("type: ideal_gas, gamma: 1.4, initial_energy: 0.25 MJ/m^3"), 1.4e5, 1e-6);
+  EXPECT_GT(bulk("type: jwl, A: 371.2 GPa, B: 3.231 GPa, R1: 4.15, R2: 0.95, omega: 0.3, initial_energy: 7000 MJ/m^3"),
+            1e9);
+  EXPECT_NEAR(bulk("type: tillotson, a: 0.5, b: 1.5, A: 75 GPa, B: 65 GPa, E0: 5 MJ/kg, alpha: 5, beta: 5, "
+                   "incipient_vaporization: 3 MJ/kg, complete_vaporization: 15 MJ/kg"),
+              75e9, 1);
+  EXPECT_EQ(bulk("type: ideal_gas, gamma: 1.4"), 0);
+  EXPECT_THROW(
+      make_material_model(read(start + elastic + "equation_of_state: {type: ideal_gas, gamma: 1.4}\n").material),
+      Error);
+}
+
 TEST(MaterialDescription, SaysWhatShellsCanUse) {
   const auto plane = [](const std::string& text) {
     return make_material_model(read(start + text).material)->supports_plane_stress();
@@ -151,8 +174,12 @@ TEST(MaterialDescription, RefusesWhatMakesNoSense) {
   refused(elastic + "soil: {pressure: [[0, 0], [0.001, 5 GPa]]}\n", "bulk modulus");
   refused(elastic + "soil: {pressure: [[0, 0], [0.1, 5 MPa]]}\nplasticity: {type: linear_hardening, yield_stress: 1}\n",
           "soil");
-  refused("equation_of_state: {type: gruneisen, c: 4600, S1: 1.3, gamma0: 1.7}\n", "elastic");
   refused(elastic + "equation_of_state: {type: polynomial, C2: 80 GPa}\n", "bulk modulus");
+  refused("equation_of_state: {type: ideal_gas, gamma: 1}\n", "gamma");
+  refused(
+      "equation_of_state: {type: tillotson, a: 0.5, b: 1.5, A: 75 GPa, B: 65 GPa, E0: 5e6, alpha: 5, beta: 5, "
+      "incipient_vaporization: 3e6, complete_vaporization: 3e6}\n",
+      "complete_vaporization");
   refused(elastic +
               "equation_of_state: {type: gruneisen, c: 4600, S1: 1.3, gamma0: 1.7}\n"
               "thermal: {conductivity: 1, specific_heat: 1, expansion: 1e-5 1/K}\n",

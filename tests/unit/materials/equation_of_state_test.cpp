@@ -24,11 +24,15 @@ Solid solid(const EquationOfState& state) {
   return {J2LinearHardening{Elasticity{117e9, 0.35, 0}, 90e6, 300e6}, state};
 }
 
-double pressure(const Gruneisen& g, double V, double e) {
-  LaneValues volume;
-  for (double& x : volume) x = V;
+const TaitState water{1000, 1500, 7, 1e5, 0};
+const JwlState tnt{371.2e9, 3.231e9, 4.15, 0.95, 0.30, 7e9};  // products of TNT, rho0 = 1630 kg/m^3
+const TillotsonState aluminium{2700, 0.5, 1.63, 75.2e9, 65e9, 5e6, 5, 5, 3e6, 13.9e6, 0};
+
+double pressure(const EquationOfState& state, double V, double e) {
+  LaneValues volume, energy;
+  for (int l = 0; l < lanes; ++l) volume[l] = V, energy[l] = e;
   PressureLaw law;
-  g.evaluate(volume, law);
+  state.evaluate(volume, energy, law);
   return law.A[0] + law.B[0] * e;
 }
 
@@ -38,7 +42,7 @@ TEST(Gruneisen, IsOnTheHugoniotExactly) {
       double U = g.c;  // shock speed: u/U depends on itself
       for (int i = 0; i < 200; ++i) U = g.c + u * (g.S1 + u / U * (g.S2 + u / U * g.S3));
       const double exact = g.density * U * u;
-      EXPECT_NEAR(pressure(g, 1 - u / U, 0.5 * g.density * u * u), exact, 1e-11 * exact) << u;
+      EXPECT_NEAR(pressure({g}, 1 - u / U, 0.5 * g.density * u * u), exact, 1e-11 * exact) << u;
     }
 }
 
@@ -111,8 +115,10 @@ TEST(EquationOfState, TensionIsHeldAtTheLeastPressure) {
 
 /// The bulk modulus handed to the stable step is the slope of smooth compression.
 TEST(EquationOfState, StiffnessIsThatOfSmoothFlow) {
-  for (const EquationOfState& state : {EquationOfState{copper}, EquationOfState{curved},
-                                       EquationOfState{PolynomialState{{0, 80e9, 60e9, 9e9, 1.8, 1.2, 0.3}}}})
+  for (const EquationOfState& state :
+       {EquationOfState{copper}, EquationOfState{curved},
+        EquationOfState{PolynomialState{{0, 80e9, 60e9, 9e9, 1.8, 1.2, 0.3}}}, EquationOfState{IdealGas{1.4, 2.5e9}},
+        EquationOfState{water}, EquationOfState{tnt}, EquationOfState{aluminium}})
     for (const double V : {0.75, 0.95, 1.03}) {
       DeformingPoint<Solid> p(solid(state));
       const double l = std::cbrt(V), d = 1e-5;
@@ -126,6 +132,63 @@ TEST(EquationOfState, StiffnessIsThatOfSmoothFlow) {
       p.deform(stretch(up, up, up)), other.deform(stretch(down, down, down));
       EXPECT_NEAR(K, (other.pressure() - p.pressure()) / (2 * d), 1e-4 * K) << V;
     }
+}
+
+TEST(IdealGas, FollowsItsLawAndBearsNoNegativeEnergy) {
+  EXPECT_NEAR(pressure({IdealGas{1.4, 0}}, 0.5, 2.5e5), 2e5, 1e-9);
+  EXPECT_EQ(pressure({IdealGas{1.4, 0}}, 0.5, -1), 0);
+  EXPECT_NEAR(EquationOfState{IdealGas{1.4, 2.5e5}}.bulk_modulus(), 1.4e5, 1e-9);
+}
+
+TEST(TaitState, FollowsItsLaw) {
+  EXPECT_NEAR(pressure({water}, 1, 0), 1e5, 1e-6);
+  EXPECT_NEAR(pressure({water}, 1 / 1.02, 0), 1e5 + 1000 * 1500.0 * 1500.0 / 7 * (std::pow(1.02, 7) - 1), 1e-3);
+  EXPECT_EQ(pressure({water}, 0.9, 1e9), pressure({water}, 0.9, 0));
+}
+
+/// A detonation at 6,930 m/s leaves the products of TNT at 21 GPa: on the line from the explosive, with the energy of
+/// the explosive and the work of the front, and with the speed of sound of a Chapman-Jouguet state, D - u.
+TEST(JwlState, IsAtTheChapmanJouguetPointOfTnt) {
+  const double rho = 1630, D = 6930, p = 21e9, V = 1 - p / (rho * D * D), e = tnt.initial_energy + 0.5 * p * (1 - V);
+  EXPECT_NEAR(pressure({tnt}, V, e), p, 0.005 * p);
+  const double dV = 1e-5,
+               K = -V * (pressure({tnt}, V + dV, e - p * dV) - pressure({tnt}, V - dV, e + p * dV)) / (2 * dV);
+  EXPECT_NEAR(std::sqrt(K * V / rho), D * V, 0.01 * D * V);
+}
+
+TEST(TillotsonState, FollowsItsBranches) {
+  const double rho = 2700, E0 = 5e6;
+  const auto bound = [&](double eta, double u) { return 1.63 / (1 + u / (E0 * eta * eta)) * rho * eta * u; };
+  const auto cold = [&](double eta, double u) {
+    return 0.5 * rho * eta * u + bound(eta, u) + 75.2e9 * (eta - 1) + 65e9 * (eta - 1) * (eta - 1);
+  };
+  const auto hot = [&](double eta, double u) {
+    const double x = 1 / eta - 1;
+    return 0.5 * rho * eta * u + (bound(eta, u) + 75.2e9 * (eta - 1) * std::exp(-5 * x)) * std::exp(-5 * x * x);
+  };
+  const auto close = [&](double eta, double u, double p) {
+    EXPECT_NEAR(pressure({aluminium}, 1 / eta, rho * u), p, 1e-9 * std::abs(p) + 1e-3) << eta << " " << u;
+  };
+  for (const double eta : {1.0, 1.3, 2.0})
+    for (const double u : {0.0, 1e6, 20e6}) close(eta, u, cold(eta, u));
+  for (const double eta : {0.3, 0.9}) {
+    close(eta, 2.9e6, cold(eta, 2.9e6)), close(eta, 14e6, hot(eta, 14e6));
+    close(eta, 3e6, cold(eta, 3e6)), close(eta, 13.9e6, hot(eta, 13.9e6));
+    const double u = 8e6, share = (u - 3e6) / 10.9e6;
+    close(eta, u, (1 - share) * cold(eta, u) + share * hot(eta, u));
+  }
+}
+
+/// What a nonlinear law adds to the step's energy is what its own pressure did.
+TEST(TillotsonState, IsMetAtTheEndOfTheStep) {
+  WithEquationOfState<LinearElastic> m{LinearElastic{Elasticity{1e3, 0.49, 0}}, {aluminium}};
+  DeformingPoint<WithEquationOfState<LinearElastic>> p(m);
+  for (int i = 1; i <= 40; ++i) {
+    p.deform(stretch(1 + 0.01 * i, 1, 1), 1e-9, 1.5e9);
+    const double V = 1 + 0.01 * i, exact = pressure({aluminium}, V, p.state[0][0]);
+    EXPECT_NEAR(p.pressure(), exact, 1e-9 * std::abs(exact) + 1) << i;
+  }
+  EXPECT_GT(p.state[0][0], 13.9e6 * 2700);
 }
 
 TEST(EquationOfState, SmallStrainsHaveBothModuli) {
