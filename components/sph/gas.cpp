@@ -5,84 +5,112 @@
 #include <limits>
 
 #include "components/sph/formulation.hpp"
-#include "components/sph/kernel_choice.hpp"
-#include "components/sph/pair_hits.hpp"
+#include "components/sph/gas_pairs.hpp"
 #include "components/sph/particle_pressure.hpp"
 
 namespace tenon {
 
 namespace {
 
-/// Densities by summation, with smoothing lengths that may follow them [SH02, Pri12], and an energy equation:
-///   rho_i = sum_j m_j W(h_i)
+using Switch = ArtificialViscosity::Switch;
+
+/// Densities by summation or continuity, with smoothing lengths that may follow them [SH02, Pri12], and an energy
+/// equation:
+///   rho_i = sum_j m_j W(h_i)     or     drho_i/dt = sum_j m_j (v_i - v_j) . grad W(h_i)/Omega_i
 ///   a_i   = - sum_j m_j (A_i grad W(h_i) + A_j grad W(h_j)) + viscosity,   A = p/(Omega rho^2)
 ///   du_i  = sum_j m_j (A_i grad W(h_i) + viscosity/2) . (v_i - v_j) dt
 /// with the mean of the velocities before and after the kick in the last line, so that the thermal energy gains what
 /// the kinetic energy loses to round-off [Owe14]. Artificial viscosity and conduction with signal speeds [Mon97,
-/// Pri08].
+/// Pri08]. The pairs of x(n), and what they do per approach, are kept from the forces to the kick.
 class Gas final : public Formulation {
  public:
   explicit Gas(const SphContext& context)
       : c_(context),
         p_(context.particles),
-        energy_(p_.add("energy_half", ColumnKind::scalar, 1, true)),
-        energy_rate_(p_.add("energy_rate", ColumnKind::scalar, 1, true)),
-        present_energy_(p_.add("specific_energy", ColumnKind::scalar, 1, true)),
-        pressure_(p_.add("pressure", ColumnKind::scalar, 1, true)),
-        sound_(p_.add("sound_speed", ColumnKind::scalar, 1, true)),
-        push_(p_.add("pressure_term", ColumnKind::scalar, 1, true)),
-        limiter_(p_.add("viscosity_limiter", ColumnKind::scalar, 1, true)),
-        stretch_(p_.add("kernel_stretch", ColumnKind::scalar, 1, true)),
+        continuity_(context.options.gas.density == GasOptions::Density::continuity),
+        limiter_kind_(context.options.artificial_viscosity.limiter),
+        energy_(scalar("energy_half")),
+        energy_rate_(scalar("energy_rate")),
+        present_energy_(scalar("specific_energy")),
+        conduction_(scalar("artificial_conduction")),
+        density_rate_(scalar("density_rate")),
+        pressure_(scalar("pressure")),
+        sound_(scalar("sound_speed")),
+        push_(scalar("pressure_term")),
+        limiter_(scalar("viscosity_limiter")),
+        stretch_(scalar("kernel_stretch")),
+        signal_(scalar("signal_speed")),
         predicted_(p_.add("predicted_velocity", ColumnKind::vector, 3, true)),
-        mean_(p_.add("mean_velocity", ColumnKind::vector, 3, false)),
-        signal_(p_.add("signal_speed", ColumnKind::scalar, 1, true)) {
+        mean_(p_.add("mean_velocity", ColumnKind::vector, 3, false)) {
     require_equations_of_state(context.name, context.options);
+    if (continuity_) density_half_ = &scalar("density_half");
+    if (limiter_kind_ == Switch::cullen_dehnen) divergence_ = &scalar("divergence");
   }
 
   void start() override {
+    double longest = 0;
     for (std::size_t i = 0; i < p_.owned(); ++i) {
       const SphBody& body = c_.options.bodies[static_cast<std::size_t>(p_.body[i])];
-      energy_[i] = body.initial_energy ? (*body.initial_energy)(0, p_.position.vec(i))
-                                       : body.material.equation_of_state->initial_energy() / body.material.density;
+      const Vec3 x = p_.position.vec(i);
+      energy_[i] = body.initial_energy     ? (*body.initial_energy)(0, x)
+                   : body.initial_pressure ? energy_of((*body.initial_pressure)(0, x), p_.density[i], body)
+                                           : body.material.equation_of_state->initial_energy() / body.material.density;
       limiter_[i] = 1;
+      if (continuity_) (*density_half_)[i] = p_.density[i];
+      longest = std::max(longest, p_.length[i]);
     }
+    longest_at_start_ = c_.comm.max(longest);
   }
 
   /// What the kick did to the thermal energies, pair by pair; and the smoothing lengths of the next step.
   void settle(double kick) override {
+    if (pairs_of_ != c_.decomposition.version()) find_pairs_again();
     for (std::size_t k = 0; k < 3 * p_.owned(); ++k) mean_[k] = 0.5 * (p_.former_velocity[k] + p_.velocity[k]);
     const std::array<Column*, 1> columns{&mean_};
     c_.decomposition.refresh(columns);
-    with_kernel(c_.options.kernel, c_.options.dimension, [&]<typename K, int d>() { pairs<K, d, true>(mean_); });
+    pack(mean_, nullptr, records_.means);
+    find_gas_work(pass(), energy_rate_);
+    const double dt = 2 * kick - previous_dt_;
     for (std::size_t i = 0; i < p_.owned(); ++i) {
+      energy_rate_[i] += conduction_[i];
       energy_[i] += kick * energy_rate_[i];
-      if (!c_.options.variable_smoothing) continue;
-      const double wanted = c_.options.smoothing * std::pow(p_.mass[i] / p_.density[i], 1.0 / c_.options.dimension);
-      p_.length[i] = std::clamp(wanted, 0.9 * p_.length[i], 1.1 * p_.length[i]);
+      if (continuity_) (*density_half_)[i] += kick * density_rate_[i];
+      if (c_.options.variable_smoothing) p_.length[i] = next_length(i, dt);
     }
   }
 
   void compute(double, double dt) override {
     for (std::size_t i = 0; i < p_.owned(); ++i) {
-      for (std::size_t k = 3 * i; k < 3 * i + 3; ++k) predicted_[k] = p_.velocity[k] + 0.5 * dt * p_.acceleration[k];
+      const double half = c_.options.bodies[static_cast<std::size_t>(p_.body[i])].wall ? 0 : 0.5 * dt;
+      for (std::size_t k = 3 * i; k < 3 * i + 3; ++k) predicted_[k] = p_.velocity[k] + half * p_.acceleration[k];
       present_energy_[i] = energy_[i] + 0.5 * dt * energy_rate_[i];
-      if (!(present_energy_[i] > 0.5 * energy_[i])) present_energy_[i] = 0.5 * energy_[i];  // of a gas that cools fast
+      // Of a gas that cools fast.
+      if (energy_[i] > 0) present_energy_[i] = std::max(present_energy_[i], 0.5 * energy_[i]);
     }
     const std::array<Column*, 4> first{&p_.position, &predicted_, &p_.length, &present_energy_};
     c_.decomposition.refresh(first);
-    with_kernel(c_.options.kernel, c_.options.dimension, [&]<typename K, int d>() { densities<K, d>(); });
+    find_densities(dt);
     find_pressures(c_.options, p_, &present_energy_, pressure_, sound_);
     for (std::size_t i = 0; i < p_.owned(); ++i)
       push_[i] = pressure_[i] / (stretch_[i] * p_.density[i] * p_.density[i]);
     const std::array<Column*, 5> second{&p_.density, &pressure_, &sound_, &push_, &limiter_};
     c_.decomposition.refresh(second);
-    with_kernel(c_.options.kernel, c_.options.dimension, [&]<typename K, int d>() { pairs<K, d, false>(predicted_); });
+    find_forces();
+    for (std::size_t i = 0; i < p_.owned(); ++i) {
+      p_.acceleration.set(i, forces_[i].acceleration);
+      conduction_[i] = forces_[i].conduction;
+      density_rate_[i] = forces_[i].density_rate;
+      signal_[i] = forces_[i].signal;
+    }
+    previous_dt_ = dt;
   }
 
   Limit stable_step() const override {
     Limit limit{std::numeric_limits<double>::infinity(), 0};
+    const double cfl = c_.options.time_step.cfl;
     for (std::size_t i = 0; i < p_.owned(); ++i) {
-      const double dt = c_.options.time_step.cfl * p_.length[i] / std::max(signal_[i], 1e-300);
+      const double h = p_.length[i], a = norm(p_.acceleration.vec(i));
+      const double dt = cfl * std::min(h / std::max(signal_[i], 1e-300), std::sqrt(h / std::max(a, 1e-300)));
       if (dt < limit.dt) limit = {dt, i};
     }
     return limit;
@@ -91,12 +119,12 @@ class Gas final : public Formulation {
   std::vector<ForcePart> forces() override { return {{"internal_energy", &p_.acceleration, nullptr}}; }
 
   std::vector<ParticleField> fields() override {
-    const auto scalar = [](std::string name, std::string unit, const Column& column) {
+    const auto shown = [](std::string name, std::string unit, const Column& column) {
       return ParticleField{{std::move(name), Location::node, FieldKind::point_value, 1, std::move(unit)},
                            [&column](std::size_t i, double* value) { *value = column[i]; }};
     };
-    return {scalar("pressure", "Pa", pressure_), scalar("specific_energy", "J/kg", present_energy_),
-            scalar("sound_speed", "m/s", sound_)};
+    return {shown("pressure", "Pa", pressure_), shown("specific_energy", "J/kg", present_energy_),
+            shown("sound_speed", "m/s", sound_)};
   }
 
   void energies(std::vector<EnergyTerm>& terms) override {
@@ -104,109 +132,126 @@ class Gas final : public Formulation {
     for (std::size_t i = 0; i < p_.owned(); ++i) term.local.add_product(p_.mass[i], energy_[i]);
   }
 
+  void save(CheckpointWriter& file) override {
+    file.scalar(c_.name + ".gas_previous_dt", previous_dt_);
+    file.scalar(c_.name + ".gas_longest_at_start", longest_at_start_);
+  }
+  void load(const CheckpointReader& file) override {
+    previous_dt_ = file.scalar(c_.name + ".gas_previous_dt");
+    longest_at_start_ = file.scalar(c_.name + ".gas_longest_at_start");
+  }
+
+  std::int64_t memory() const override {
+    std::size_t doubles = 0;
+    for (const std::vector<double>* const r : {&records_.places, &records_.motion, &records_.states, &records_.means})
+      doubles += r->capacity();
+    return pairs_.memory() +
+           static_cast<std::int64_t>(doubles * sizeof(double) + densities_.capacity() * sizeof(GasDensity) +
+                                     forces_.capacity() * sizeof(GasForce));
+  }
+
  private:
-  /// Densities, Omega_i = 1 + h_i/(d rho_i) sum_j m_j dW/dh_i, and Balsara's switch [Bal95].
-  template <typename K, int d>
-  void densities() {
-    constexpr double sigma = K::sigma(d);
-    for (std::size_t i = 0; i < p_.owned(); ++i) {
-      hits_.find(i, c_.decomposition.lists().of(i), p_.position.data(), p_.length.data(), K::support);
-      const double h = p_.length[i];
-      double scale = sigma;
-      for (int n = 0; n < d; ++n) scale /= h;
-      const Vec3 v = predicted_.vec(i);
-      WidePack rho{}, change{}, div{}, cx{}, cy{}, cz{};
-      for (std::size_t k = 0; k < hits_.padded(); k += wide_pack_width) {
-        WidePack m, ux, uy, uz;
-        for (int l = 0; l < wide_pack_width; ++l) {
-          const auto j = static_cast<std::size_t>(hits_.j[k + static_cast<std::size_t>(l)]);
-          m[l] = p_.mass[j];
-          ux[l] = v[0] - predicted_[3 * j], uy[l] = v[1] - predicted_[3 * j + 1], uz[l] = v[2] - predicted_[3 * j + 2];
-        }
-        const WidePack dx = load_wide(&hits_.dx[k]), dy = load_wide(&hits_.dy[k]), dz = load_wide(&hits_.dz[k]);
-        const WidePack r2 = load_wide(&hits_.squared[k]), q = square_root(r2) / h;
-        m *= load_wide(&hits_.inside[k]);
-        const WidePack w = K::template w<d>(q), slope = K::template slope<d>(q);
-        rho += m * w;
-        change -= m * (d * w + q * q * slope);
-        const WidePack g = m * slope;
-        div -= g * (ux * dx + uy * dy + uz * dz);
-        cx += g * (uz * dy - uy * dz), cy += g * (ux * dz - uz * dx), cz += g * (uy * dx - ux * dy);
-      }
-      const double self = p_.mass[i] * K::template w<d>(0.0);
-      p_.density[i] = scale * (sum_of(rho) + self);
-      stretch_[i] = c_.options.variable_smoothing ? 1 + scale * (sum_of(change) - d * self) / (d * p_.density[i]) : 1;
-      if (c_.options.artificial_viscosity.limiter == ArtificialViscosity::Switch::none) continue;
-      const double rate = scale / (h * h * p_.density[i]);
-      const double compression = std::abs(rate * sum_of(div));
-      const double curl = rate * norm({sum_of(cx), sum_of(cy), sum_of(cz)});
-      limiter_[i] = compression / (compression + curl + 1e-4 * sound_[i] / h + 1e-300);
+  Column& scalar(const std::string& name) { return p_.add(name, ColumnKind::scalar, 1, true); }
+  GasPass pass() { return {c_.options, p_, c_.decomposition.lists(), records_, pairs_, hits_}; }
+
+  /// Three components of one column and one of another, of all particles.
+  void pack(const Column& vectors, const Column* scalars, std::vector<double>& records) const {
+    records.resize(4 * p_.size());
+    for (std::size_t i = 0; i < p_.size(); ++i) {
+      for (std::size_t c = 0; c < 3; ++c) records[4 * i + c] = vectors[3 * i + c];
+      records[4 * i + 3] = scalars ? (*scalars)[i] : 0;
     }
   }
 
-  /// Forces and rates of thermal energy; or, with the mean velocities of a kick, the rates alone.
-  template <typename K, int d, bool rates_alone>
-  void pairs(const Column& velocity) {
-    constexpr double sigma = K::sigma(d);
-    const double alpha = c_.options.artificial_viscosity.alpha.value_or(1),
-                 beta = c_.options.artificial_viscosity.beta.value_or(2);
-    const double conduction = c_.options.artificial_conduction;
-    for (std::size_t i = 0; i < p_.owned(); ++i) {
-      hits_.find(i, c_.decomposition.lists().of(i), p_.position.data(), p_.length.data(), K::support);
-      const double hi = p_.length[i], rho = p_.density[i], ci = sound_[i], push = push_[i], pressure = pressure_[i];
-      const double ui = present_energy_[i], limiter = limiter_[i];
-      const Vec3 v = velocity.vec(i), at = predicted_.vec(i);
-      WidePack ax{}, ay{}, az{}, rate{}, fastest{};
-      for (std::size_t k = 0; k < hits_.padded(); k += wide_pack_width) {
-        WidePack m, hj, rho_j, cj, push_j, p_j, u_j, limit_j, ux, uy, uz, sx, sy, sz;
-        for (int l = 0; l < wide_pack_width; ++l) {
-          const auto j = static_cast<std::size_t>(hits_.j[k + static_cast<std::size_t>(l)]);
-          m[l] = p_.mass[j], hj[l] = p_.length[j], rho_j[l] = p_.density[j], cj[l] = sound_[j], push_j[l] = push_[j];
-          p_j[l] = pressure_[j], u_j[l] = present_energy_[j], limit_j[l] = limiter_[j];
-          ux[l] = v[0] - velocity[3 * j], uy[l] = v[1] - velocity[3 * j + 1], uz[l] = v[2] - velocity[3 * j + 2];
-          sx[l] = at[0] - predicted_[3 * j], sy[l] = at[1] - predicted_[3 * j + 1],
-          sz[l] = at[2] - predicted_[3 * j + 2];
-        }
-        const WidePack dx = load_wide(&hits_.dx[k]), dy = load_wide(&hits_.dy[k]), dz = load_wide(&hits_.dz[k]);
-        const WidePack r2 = load_wide(&hits_.squared[k]), r = square_root(r2);
-        m *= load_wide(&hits_.inside[k]);
-        WidePack scale_i = broadcast<WidePack>(sigma / (hi * hi)), scale_j = sigma / (hj * hj);
-        for (int n = 0; n < d; ++n) scale_i /= hi, scale_j /= hj;
-        const WidePack gi = scale_i * K::template slope<d>(r / hi), gj = scale_j * K::template slope<d>(r / hj);
-        const WidePack mean = 0.5 * (gi + gj);
-        // Viscosity by what the pair was predicted to do when the kick was made.
-        const WidePack along = sx * dx + sy * dy + sz * dz, inverse = 1.0 / (r + 1e-12 * hi);
-        const WidePack closing = lesser_of<WidePack>(along * inverse, WidePack{});
-        const WidePack signal = 0.5 * alpha * (ci + cj) - beta * closing;
-        const WidePack density = 0.5 * (rho + rho_j);
-        const WidePack viscous = -0.5 * (limiter + limit_j) * signal * closing * inverse / density;
-        // Acceleration along dx is -(m) * (...) * dx, and viscous > 0 pushes apart: -m (-viscous) |slope|.
-        const WidePack sticky = viscous * r * mean;
-        const WidePack total = -m * (push * gi + push_j * gj + sticky);
-        if constexpr (!rates_alone) {
-          ax += total * dx, ay += total * dy, az += total * dz;
-          fastest = greater_of<WidePack>(fastest, load_wide(&hits_.inside[k]) * (ci + cj - 2 * beta * closing));
-        }
-        const WidePack work = ux * dx + uy * dy + uz * dz;
-        rate += m * (push * gi + 0.5 * sticky) * work;
-        const WidePack speed = square_root(greater_of<WidePack>(pressure - p_j, p_j - pressure) / density);
-        rate += m * conduction * speed / density * (ui - u_j) * mean * r;
-      }
-      energy_rate_[i] = sum_of(rate);
-      if constexpr (!rates_alone) {
-        p_.acceleration.set(i, {sum_of(ax), sum_of(ay), sum_of(az)});
-        double most = ci;
-        for (int l = 0; l < wide_pack_width; ++l) most = std::max(most, fastest[l]);
-        signal_[i] = most;
-      }
+  void pack_states() {
+    records_.states.resize(GasRecord::size * p_.size());
+    for (std::size_t i = 0; i < p_.size(); ++i) {
+      const std::array<double, GasRecord::size> state{p_.density[i],      sound_[i],   push_[i], pressure_[i],
+                                                      present_energy_[i], limiter_[i], 0,        0};
+      std::copy(state.begin(), state.end(), records_.states.begin() + static_cast<std::ptrdiff_t>(state.size() * i));
     }
+  }
+
+  void sum_densities() {
+    pack(p_.position, &p_.length, records_.places);
+    pack(predicted_, &p_.mass, records_.motion);
+    densities_.resize(p_.owned());
+    find_gas_densities(pass(), densities_);
+    pairs_of_ = c_.decomposition.version();
+  }
+
+  void find_densities(double dt) {
+    sum_densities();
+    const bool stretches = c_.options.variable_smoothing && !continuity_;
+    for (std::size_t i = 0; i < p_.owned(); ++i) {
+      p_.density[i] = continuity_ ? (*density_half_)[i] + 0.5 * dt * density_rate_[i] : densities_[i].density;
+      // Without a neighbour, or with one that moves away, Omega may come near zero.
+      stretch_[i] = stretches ? std::max(densities_[i].stretch, 0.2) : 1;
+      if (limiter_kind_ == Switch::balsara)
+        limiter_[i] = balsara(i);
+      else if (limiter_kind_ == Switch::cullen_dehnen)
+        limiter_[i] = cullen_dehnen(i, dt);
+    }
+  }
+
+  void find_forces() {
+    pack_states();
+    forces_.resize(p_.owned());
+    find_gas_forces(pass(), stretch_, forces_);
+  }
+
+  /// After a restart: all that the pairs depend on is in the checkpoint.
+  void find_pairs_again() {
+    sum_densities();
+    find_forces();
+  }
+
+  /// [Bal95]: 1 in pure compression, 0 in pure shear.
+  double balsara(std::size_t i) const {
+    const double div = std::abs(densities_[i].divergence), curl = densities_[i].curl;
+    return div / (div + curl + 1e-4 * sound_[i] / p_.length[i] + 1e-300);
+  }
+
+  /// [CD10] with the simpler limiter of [Pri18]: viscosity where a compression grows, which fades behind the shock.
+  double cullen_dehnen(std::size_t i, double dt) {
+    constexpr double decay = 0.05;
+    const double div = densities_[i].divergence, curl = densities_[i].curl, h = p_.length[i];
+    const double before = (*divergence_)[i];
+    (*divergence_)[i] = div;
+    if (dt == 0) return limiter_[i];
+    const double shear = div * div / (div * div + curl * curl + 1e-300);
+    const double growth = div < 0 ? shear * std::max((before - div) / dt, 0.0) : 0;  // 1/s^2
+    const double speed = std::max(signal_[i], 1e-300);
+    const double wanted = h * h * growth / (speed * speed + h * h * growth);
+    if (wanted > limiter_[i]) return wanted;
+    const double rate = 2 * decay * speed / h * dt;
+    return (limiter_[i] + rate * wanted) / (1 + rate);
+  }
+
+  /// h of the density that is to be expected after the next step. A particle alone would grow without end.
+  double next_length(std::size_t i, double dt) const {
+    const double now = p_.density[i], coming = std::clamp(now + dt * density_rate_[i], 0.5 * now, 2 * now);
+    const double wanted = c_.options.smoothing * std::pow(p_.mass[i] / coming, 1.0 / c_.options.dimension);
+    const double h = std::clamp(wanted, 0.8 * p_.length[i], 1.25 * p_.length[i]);
+    return std::min(h, c_.options.gas.greatest_smoothing * longest_at_start_);
   }
 
   SphContext c_;
   ParticleData& p_;
-  Column &energy_, &energy_rate_, &present_energy_, &pressure_, &sound_, &push_, &limiter_, &stretch_, &predicted_,
-      &mean_, &signal_;
+  bool continuity_;
+  Switch limiter_kind_;
+  Column &energy_, &energy_rate_, &present_energy_, &conduction_, &density_rate_, &pressure_, &sound_, &push_,
+      &limiter_, &stretch_, &signal_, &predicted_, &mean_;
+  Column* density_half_ = nullptr;  // rho(n-1/2), by continuity
+  Column* divergence_ = nullptr;    // of the step before
+  double previous_dt_ = 0, longest_at_start_ = 0;
+
   PairHits hits_;
+  GasPairs pairs_;
+  std::int64_t pairs_of_ = -1;  // arrangement that they belong to
+  GasRecords records_;
+  std::vector<GasDensity> densities_;
+  std::vector<GasForce> forces_;
 };
 
 }  // namespace

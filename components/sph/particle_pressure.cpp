@@ -25,6 +25,24 @@ double undeformed_sound(const SphBody& body) {
   return std::sqrt(body.material.equation_of_state->bulk_modulus() / body.material.density);
 }
 
+// Newton steps, one where the law is linear. Away from zero first, where an ideal gas has no slope.
+double energy_of(double pressure, double density, const SphBody& body) {
+  const EquationOfState& state = *body.material.equation_of_state;
+  LaneValues volume, energy;
+  for (std::size_t l = 0; l < lanes; ++l)
+    volume[l] = body.material.density / density, energy[l] = std::max(state.initial_energy(), 1e-300);
+  for (int newton = 0; newton < 50; ++newton) {
+    PressureLaw law;
+    state.evaluate(volume, energy, law);
+    if (!(law.B[0] > 0)) return state.initial_energy() / body.material.density;
+    const double next = (pressure - law.A[0]) / law.B[0];
+    const bool there = std::abs(next - energy[0]) <= 1e-14 * std::abs(next);
+    for (double& e : energy) e = next;
+    if (there) break;
+  }
+  return energy[0] / body.material.density;
+}
+
 // Eight particles at a time, whatever bodies they belong to: once for each of these.
 void find_pressures(const SphOptions& options, const ParticleData& particles, const Column* energy, Column& pressure,
                     Column& sound) {

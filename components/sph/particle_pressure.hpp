@@ -18,6 +18,10 @@ void require_equations_of_state(const std::string& component, const SphOptions& 
 void find_pressures(const SphOptions& options, const ParticleData& particles, const Column* energy, Column& pressure,
                     Column& sound);
 
+/// Specific energy (J/kg) at which the body has that pressure (Pa) at that density (kg/m^3); that of the start if the
+/// pressure does not depend on it.
+double energy_of(double pressure, double density, const SphBody& body);
+
 /// Speed of sound of the undeformed material of each body, m/s.
 double undeformed_sound(const SphBody& body);
 

@@ -33,7 +33,7 @@ struct SphBody {
   bool wall = false;                                     ///< does not feel forces: stands still, or moves as told
   std::array<TimeFunction, 3> velocity;                  ///< of a wall, m/s
   std::array<SpaceTimeFunction, 3> initial_velocity;     ///< m/s, of the places at the start
-  std::optional<SpaceTimeFunction> initial_pressure;     ///< Pa; the density follows from it
+  std::optional<SpaceTimeFunction> initial_pressure;     ///< Pa; the density follows from it, of gases the energy
   std::optional<SpaceTimeFunction> initial_density;      ///< kg/m^3; else that of the material
   std::optional<SpaceTimeFunction> initial_energy;       ///< J/kg, of gases
   std::optional<SpaceTimeFunction> initial_temperature;  ///< K
@@ -59,6 +59,13 @@ struct FluidOptions {
   bool slip = true;                ///< walls let fluid pass along them
 };
 
+struct GasOptions {
+  /// Summation: of masses around, exact where there is matter on all sides. Continuity: by the divergence of the
+  /// velocity, for condensed matter with free surfaces.
+  enum class Density { summation, continuity } density = Density::summation;
+  double greatest_smoothing = 4;  ///< over the greatest smoothing length of the start: where following rho ends
+};
+
 struct SphTimeStep {
   double cfl = 0.25;              ///< of smoothing length over signal speed
   std::optional<double> fixed;    ///< s
@@ -77,6 +84,7 @@ struct SphOptions {
   ArtificialViscosity artificial_viscosity;
   double artificial_conduction = 0;  ///< alpha_u of gases [Pri08]: heat across jumps of energy, 0 none, 1 full
   FluidOptions fluid;
+  GasOptions gas;
   SphTimeStep time_step;
   double skin = 0.1;  ///< of the support: how far lists reach beyond it
   bool always_search = false;

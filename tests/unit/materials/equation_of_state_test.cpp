@@ -137,7 +137,7 @@ TEST(EquationOfState, StiffnessIsThatOfSmoothFlow) {
 TEST(IdealGas, FollowsItsLawAndBearsNoNegativeEnergy) {
   EXPECT_NEAR(pressure({IdealGas{1.4, 0}}, 0.5, 2.5e5), 2e5, 1e-9);
   EXPECT_EQ(pressure({IdealGas{1.4, 0}}, 0.5, -1), 0);
-  EXPECT_NEAR(EquationOfState{IdealGas{1.4, 2.5e5}}.bulk_modulus(), 1.4e5, 1e-9);
+  EXPECT_NEAR((EquationOfState{IdealGas{1.4, 2.5e5}}.bulk_modulus()), 1.4e5, 1e-9);
 }
 
 TEST(TaitState, FollowsItsLaw) {
