@@ -16,7 +16,7 @@ using Switch = ArtificialViscosity::Switch;
 
 /// Densities by summation or continuity, with smoothing lengths that may follow them [SH02, Pri12], and an energy
 /// equation:
-///   rho_i = sum_j m_j W(h_i)     or     drho_i/dt = sum_j m_j (v_i - v_j) . grad W(h_i)/Omega_i
+///   rho_i = sum_j m_j W(h_i)     or     dln rho_i/dt = - div v, exact for uniform expansion
 ///   a_i   = - sum_j m_j (A_i grad W(h_i) + A_j grad W(h_j)) + viscosity,   A = p/(Omega rho^2)
 ///   du_i  = sum_j m_j (A_i grad W(h_i) + viscosity/2) . (v_i - v_j) dt
 /// with the mean of the velocities before and after the kick in the last line, so that the thermal energy gains what
@@ -33,7 +33,7 @@ class Gas final : public Formulation {
         energy_rate_(scalar("energy_rate")),
         present_energy_(scalar("specific_energy")),
         conduction_(scalar("artificial_conduction")),
-        density_rate_(scalar("density_rate")),
+        growth_(scalar("density_growth")),
         pressure_(scalar("pressure")),
         sound_(scalar("sound_speed")),
         push_(scalar("pressure_term")),
@@ -51,15 +51,14 @@ class Gas final : public Formulation {
     double longest = 0;
     for (std::size_t i = 0; i < p_.owned(); ++i) {
       const SphBody& body = c_.options.bodies[static_cast<std::size_t>(p_.body[i])];
-      const Vec3 x = p_.position.vec(i);
-      energy_[i] = body.initial_energy     ? (*body.initial_energy)(0, x)
-                   : body.initial_pressure ? energy_of((*body.initial_pressure)(0, x), p_.density[i], body)
-                                           : body.material.equation_of_state->initial_energy() / body.material.density;
+      energy_[i] = body.initial_energy ? (*body.initial_energy)(0, p_.position.vec(i))
+                                       : body.material.equation_of_state->initial_energy() / body.material.density;
       limiter_[i] = 1;
       if (continuity_) (*density_half_)[i] = p_.density[i];
       longest = std::max(longest, p_.length[i]);
     }
     longest_at_start_ = c_.comm.max(longest);
+    starting_ = true;
   }
 
   /// What the kick did to the thermal energies, pair by pair; and the smoothing lengths of the next step.
@@ -74,12 +73,14 @@ class Gas final : public Formulation {
     for (std::size_t i = 0; i < p_.owned(); ++i) {
       energy_rate_[i] += conduction_[i];
       energy_[i] += kick * energy_rate_[i];
-      if (continuity_) (*density_half_)[i] += kick * density_rate_[i];
+      if (continuity_) (*density_half_)[i] *= std::exp(kick * growth_[i]);
       if (c_.options.variable_smoothing) p_.length[i] = next_length(i, dt);
     }
   }
 
   void compute(double, double dt) override {
+    if (starting_) agree_at_start();
+    starting_ = false;
     for (std::size_t i = 0; i < p_.owned(); ++i) {
       const double half = c_.options.bodies[static_cast<std::size_t>(p_.body[i])].wall ? 0 : 0.5 * dt;
       for (std::size_t k = 3 * i; k < 3 * i + 3; ++k) predicted_[k] = p_.velocity[k] + half * p_.acceleration[k];
@@ -99,7 +100,7 @@ class Gas final : public Formulation {
     for (std::size_t i = 0; i < p_.owned(); ++i) {
       p_.acceleration.set(i, forces_[i].acceleration);
       conduction_[i] = forces_[i].conduction;
-      density_rate_[i] = forces_[i].density_rate;
+      growth_[i] = forces_[i].growth;
       signal_[i] = forces_[i].signal;
     }
     previous_dt_ = dt;
@@ -184,13 +185,39 @@ class Gas final : public Formulation {
     sum_densities();
     const bool stretches = c_.options.variable_smoothing && !continuity_;
     for (std::size_t i = 0; i < p_.owned(); ++i) {
-      p_.density[i] = continuity_ ? (*density_half_)[i] + 0.5 * dt * density_rate_[i] : densities_[i].density;
+      p_.density[i] = continuity_ ? (*density_half_)[i] * std::exp(0.5 * dt * growth_[i]) : densities_[i].density;
       // Without a neighbour, or with one that moves away, Omega may come near zero.
       stretch_[i] = stretches ? std::max(densities_[i].stretch, 0.2) : 1;
       if (limiter_kind_ == Switch::balsara)
         limiter_[i] = balsara(i);
       else if (limiter_kind_ == Switch::cullen_dehnen)
         limiter_[i] = cullen_dehnen(i, dt);
+    }
+  }
+
+  /// Smoothing lengths that agree with the densities they give, and energies with the pressures asked for.
+  void agree_at_start() {
+    constexpr int budget = 50;
+    constexpr double close = 1e-8;
+    for (std::size_t k = 0; k < 3 * p_.owned(); ++k) predicted_[k] = p_.velocity[k];
+    double change = 1;
+    for (int i = 0; i < budget && change > close; ++i) {
+      const std::array<Column*, 3> columns{&p_.position, &predicted_, &p_.length};
+      c_.decomposition.refresh(columns);
+      find_densities(0);
+      change = 0;
+      for (std::size_t k = 0; k < p_.owned() && c_.options.variable_smoothing; ++k) {
+        const double h = next_length(k, 0);
+        change = std::max(change, std::abs(h / p_.length[k] - 1));
+        p_.length[k] = h;
+      }
+      change = c_.comm.max(change);
+      if (c_.decomposition.used_up()) c_.decomposition.renew();
+    }
+    for (std::size_t k = 0; k < p_.owned(); ++k) {
+      const SphBody& body = c_.options.bodies[static_cast<std::size_t>(p_.body[k])];
+      if (!body.initial_energy && body.initial_pressure)
+        energy_[k] = energy_of((*body.initial_pressure)(0, p_.position.vec(k)), p_.density[k], body);
     }
   }
 
@@ -230,7 +257,7 @@ class Gas final : public Formulation {
 
   /// h of the density that is to be expected after the next step. A particle alone would grow without end.
   double next_length(std::size_t i, double dt) const {
-    const double now = p_.density[i], coming = std::clamp(now + dt * density_rate_[i], 0.5 * now, 2 * now);
+    const double now = p_.density[i], coming = now * std::exp(std::clamp(dt * growth_[i], -0.7, 0.7));
     const double wanted = c_.options.smoothing * std::pow(p_.mass[i] / coming, 1.0 / c_.options.dimension);
     const double h = std::clamp(wanted, 0.8 * p_.length[i], 1.25 * p_.length[i]);
     return std::min(h, c_.options.gas.greatest_smoothing * longest_at_start_);
@@ -240,11 +267,12 @@ class Gas final : public Formulation {
   ParticleData& p_;
   bool continuity_;
   Switch limiter_kind_;
-  Column &energy_, &energy_rate_, &present_energy_, &conduction_, &density_rate_, &pressure_, &sound_, &push_,
-      &limiter_, &stretch_, &signal_, &predicted_, &mean_;
+  Column &energy_, &energy_rate_, &present_energy_, &conduction_, &growth_, &pressure_, &sound_, &push_, &limiter_,
+      &stretch_, &signal_, &predicted_, &mean_;
   Column* density_half_ = nullptr;  // rho(n-1/2), by continuity
   Column* divergence_ = nullptr;    // of the step before
   double previous_dt_ = 0, longest_at_start_ = 0;
+  bool starting_ = false;
 
   PairHits hits_;
   GasPairs pairs_;

@@ -128,6 +128,7 @@ void densities(const GasPass& pass, std::span<GasDensity> found) {
 /// Constants of the pair forces.
 struct GasConstants {
   double alpha, beta, conduction;
+  bool linear;  ///< divergence exact for velocities along the distance from i, also at surfaces; not that of the sum
 };
 
 // With F = w'(q)/(q h^(d+2)), grad W = F x_ij, F <= 0. Viscosity [Mon97]: the acceleration of i is that of a pressure
@@ -144,7 +145,7 @@ void forces(const GasPass& pass, const GasConstants& constants, const Column& st
     const double hi = places[4 * i + 3], over_h = 1 / hi, scale_i = sigma * over_h * over_h / power<d>(hi);
     const double* const own = states + GasRecord::size * i;
     const double rho = own[0], ci = own[1], push = own[2], pressure = own[3], energy = own[4], limiter = own[5];
-    WidePack ax{}, ay{}, az{}, heat{}, rate{}, fastest = broadcast<WidePack>(ci);
+    WidePack ax{}, ay{}, az{}, heat{}, rate{}, spread{}, fastest = broadcast<WidePack>(ci);
     const std::size_t first = pairs.begin[i], end = pairs.begin[i + 1];
     for (std::size_t k = first; k < end; k += wide_pack_width) {
       const LocalIndex* const other = &pairs.other[k];
@@ -160,7 +161,7 @@ void forces(const GasPass& pass, const GasConstants& constants, const Column& st
       const WidePack gi = scale_i * K::template slope<d>(r * over_h), gj = scale_j * K::template slope<d>(r * over_hj);
       const WidePack mean = 0.5 * (gi + gj);
       const WidePack along = moving.ux * apart.dx + moving.uy * apart.dy + moving.uz * apart.dz;
-      const WidePack closing = lesser_of<WidePack>(along / (r + 1e-12 * hi), WidePack{});
+      const WidePack apart_speed = along / (r + 1e-12 * hi), closing = lesser_of<WidePack>(apart_speed, WidePack{});
       const WidePack sound = 0.5 * (ci + cj), density = 0.5 * (rho + rho_j);
       const WidePack speed = constants.alpha * sound - constants.beta * closing;
       const WidePack viscous = -0.5 * (limiter + limit_j) * speed * closing / density * mean;
@@ -168,16 +169,21 @@ void forces(const GasPass& pass, const GasConstants& constants, const Column& st
       ax += total * apart.dx, ay += total * apart.dy, az += total * apart.dz;
       store(&pairs.work[k], m * (push * gi + 0.5 * viscous));
       rate += m * gi * along;
-      fastest = greater_of<WidePack>(fastest, inside * (sound - constants.beta * closing));
+      spread -= m * gi * apart.squared;
+      fastest = greater_of<WidePack>(fastest,
+                                     inside * (sound + greater_of<WidePack>(apart_speed, -constants.beta * closing)));
       if (constants.conduction > 0) {
         const WidePack flow = square_root(greater_of<WidePack>(pressure - p_j, p_j - pressure) / density);
         heat += m * flow / density * (energy - u_j) * mean * r;
       }
     }
-    const WidePack sums = sums_of(ax, ay, az, rate, heat, WidePack{}, WidePack{}, WidePack{});
+    const WidePack sums = sums_of(ax, ay, az, rate, heat, spread, WidePack{}, WidePack{});
     double signal = ci;
     for (int l = 0; l < wide_pack_width; ++l) signal = std::max(signal, fastest[l]);
-    found[i] = {{sums[0], sums[2], sums[4]}, constants.conduction * sums[1], sums[6] / stretch[i], signal};
+    // Order of the sums: ax, heat, ay, spread, az, -, rate.
+    const double of_sum = sums[6] / (stretch[i] * rho), linear = sums[3] > 0 ? d * sums[6] / sums[3] : 0;
+    found[i] = {
+        {sums[0], sums[2], sums[4]}, constants.conduction * sums[1], constants.linear ? linear : of_sum, signal};
   }
 }
 
@@ -195,7 +201,8 @@ void find_gas_densities(const GasPass& pass, std::span<GasDensity> found) {
 
 void find_gas_forces(const GasPass& pass, const Column& stretch, std::span<GasForce> found) {
   const GasConstants constants{pass.options.artificial_viscosity.alpha.value_or(1),
-                               pass.options.artificial_viscosity.beta.value_or(2), pass.options.artificial_conduction};
+                               pass.options.artificial_viscosity.beta.value_or(2), pass.options.artificial_conduction,
+                               pass.options.gas.density == GasOptions::Density::continuity};
   with_kernel(pass.options.kernel, pass.options.dimension,
               [&]<typename K, int d>() { forces<K, d>(pass, constants, stretch, found); });
 }

@@ -57,10 +57,10 @@ struct GasDensity {
 
 /// What the second one finds there.
 struct GasForce {
-  Vec3 acceleration;    ///< m/s^2
-  double conduction;    ///< artificial, W/kg
-  double density_rate;  ///< sum of m v_ij . grad W_i/Omega, kg/(m^3 s)
-  double signal;        ///< greatest signal speed of its pairs, m/s
+  Vec3 acceleration;  ///< m/s^2
+  double conduction;  ///< artificial, W/kg
+  double growth;      ///< of the density, over the density, 1/s
+  double signal;      ///< greatest signal speed of its pairs, m/s
 };
 
 /// What the passes work on.

@@ -15,6 +15,7 @@ inline SphScene noh(int particles, int dimension) {
   SphBody gas = body_of("gas", ideal_gas(1, 5.0 / 3));
   gas.initial_pressure = SpaceTimeFunction::constant(1e-6);
   scene.options.bodies = {gas};
+  scene.options.artificial_conduction = 0, scene.options.smoothing = 1.2;
   for (std::size_t c = 0; c < static_cast<std::size_t>(dimension); ++c) scene.options.domain.axes[c].low = 0;
   scene.options.initial_velocity_function = [](const Vec3& x) { return (-1 / norm(x)) * x; };
   scene.end = 0.6;

@@ -15,7 +15,7 @@ struct SedovSolution {
 /// `across` particles along the edge of a unit cube about the blast; its octant between mirrors, or all of it.
 inline SphScene sedov(int across, bool octant) {
   SphScene scene = gas_scene(3);
-  const double spacing = 1.0 / across, low = octant ? 0 : -0.5, reach = 2 * spacing;
+  const double spacing = 1.0 / across, low = octant ? 0 : -0.5, reach = spacing;
   scene.mesh = particle_bodies({{"gas", box_of_particles({low, low, low}, {0.5, 0.5, 0.5}, spacing, 3)}});
   // The energy is spread by a kernel; its sum over the particles is one in all.
   const auto weight = [=](const Vec3& x) { return WendlandC2::w<3>(norm(x) / reach); };
@@ -25,6 +25,7 @@ inline SphScene sedov(int across, bool octant) {
   SphBody gas = body_of("gas", ideal_gas(1, 1.4));
   gas.initial_energy = of_place([=](const Vec3& x) { return 1e-6 / 0.4 + share * weight(x) / (sum * mass); });
   scene.options.bodies = {gas};
+  scene.options.artificial_conduction = 0;  // which would carry the heat of the middle far
   for (ParticleDomain::Axis& axis : scene.options.domain.axes) axis.low = low, axis.high = 0.5;
   scene.end = SedovSolution::end;
   return scene;

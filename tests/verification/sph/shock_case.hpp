@@ -82,6 +82,7 @@ struct SodSolution {
 
 /// Equal masses, `dense` particles a unit length at density 1. Mirrors at both ends; in three dimensions periodic
 /// across, `across` of the dense ones wide, and half as many of the others.
+/// With the usual spline.
 inline SphScene sod_tube(int dense, int dimension, int across = 6) {
   SphScene scene = gas_scene(dimension);
   const double spacing = 1.0 / dense, width = across * spacing;
@@ -91,14 +92,16 @@ inline SphScene sod_tube(int dense, int dimension, int across = 6) {
                                 {"right", box_of_particles({0, 0, 0}, Vec3{0.5, 0, 0} + side, thin, dimension)}});
   SphBody left = body_of("left", ideal_gas(1, SodSolution::gamma)),
           right = body_of("right", ideal_gas(0.125, SodSolution::gamma));
-  left.initial_pressure = SpaceTimeFunction::constant(1);
-  right.initial_pressure = SpaceTimeFunction::constant(0.1);
+  left.initial_energy = SpaceTimeFunction::constant(2.5);
+  right.initial_energy = SpaceTimeFunction::constant(2);
   scene.options.bodies = {left, right};
   scene.options.domain.axes[0].low = -0.5, scene.options.domain.axes[0].high = 0.5;
   for (std::size_t c = 1; c < static_cast<std::size_t>(dimension); ++c) {
     scene.options.domain.axes[c].periodic = true;
     scene.options.domain.axes[c].low = 0, scene.options.domain.axes[c].high = width;
   }
+  scene.options.kernel = SphKernelKind::cubic_spline;
+  scene.options.smoothing = dimension == 1 ? 1.0 : 1.2;
   scene.end = 0.2;
   return scene;
 }
