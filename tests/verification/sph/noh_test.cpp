@@ -29,7 +29,8 @@ Planar planar(int particles, ArtificialViscosity::Switch limiter) {
     if (at < 0.35) end.error += m[i] / rho[i] * std::abs(rho[i] - exact), mass += m[i] / rho[i] * exact;
     if (i < 6 || at > 0.17) continue;
     end.density += rho[i], end.pressure += p[i], end.length += h[i], ++inside;
-    if (limiter == ArtificialViscosity::Switch::none) EXPECT_NEAR(rho[i], 4, 0.02 * 4) << "at " << at;
+    if (limiter != ArtificialViscosity::Switch::none) continue;  // it rings a little
+    EXPECT_NEAR(rho[i], 4, 0.02 * 4) << "at " << at;
   }
   end.density /= inside, end.pressure /= inside, end.length /= inside, end.error /= mass;
   if (communicator().rank() == 0)
