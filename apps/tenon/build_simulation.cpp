@@ -15,6 +15,8 @@
 #include "components/materials/read_material.hpp"
 #include "components/mechanics/mechanics.hpp"
 #include "components/mechanics/scene_block.hpp"
+#include "components/sph/scene_block.hpp"
+#include "components/sph/sph.hpp"
 #include "components/thermal/scene_block.hpp"
 #include "components/thermal/thermal.hpp"
 #include "transfer/field_link.hpp"
@@ -35,6 +37,7 @@ struct Planned {
   std::size_t mesh;
   ElementCost cost;
   MakeComponent make;
+  PartitionMethod partition = PartitionMethod::automatic;
 };
 
 std::vector<SceneMesh> read_meshes(const Communicator& comm, Log& log, const LoadedScene& scene,
@@ -81,6 +84,15 @@ std::vector<Planned> plan_components(const LoadedScene& scene, const std::vector
       planned.push_back({name, mesh, std::move(cost), [name = name, options](std::shared_ptr<const Mesh> m) {
                            return std::make_unique<Mechanics>(name, std::move(m), options);
                          }});
+    } else if (block.text("type") == "sph") {
+      SphOptions options = read_sph(block, summary, meshes[mesh].dimension, materials, diagnostics);
+      planned.push_back({name,
+                         mesh,
+                         {},
+                         [name = name, options](std::shared_ptr<const Mesh> m) {
+                           return std::make_unique<Sph>(name, std::move(m), options);
+                         },
+                         PartitionMethod::rcb});  // particles have no graph
     } else {
       ThermalOptions options = read_thermal(block, summary, materials, diagnostics);
       if (options.stepper == ThermalStepper::steady && !options.fixed_step &&
@@ -106,6 +118,7 @@ void distribute_to(const Communicator& comm, std::vector<SceneMesh>& meshes, con
     MeshData data = last ? std::move(mesh.data) : mesh.data;
     DistributeOptions options;
     options.cost = planned[p].cost;
+    options.method = planned[p].partition;
     options.name = planned[p].name;
     simulation.add(planned[p].make(distribute(comm, std::move(data), options)));
   }

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "apps/tenon/scene_particles.hpp"
 #include "framework/mesh/generators.hpp"
 #include "framework/mesh/mesh.hpp"
 #include "framework/mesh/renumber.hpp"
@@ -165,6 +166,7 @@ std::function<MeshData()> recipe(const Value& v, const std::string& folder, scen
     s.tetrahedra = v.text("element") == "tet4";
     return [s] { return generate(s); };
   }
+  if (type == "particles") return particle_recipe(v, folder, diagnostics);
   if (type == "annulus") return [s = annulus(v, diagnostics)] { return generate(s); };
   PlateShape s;
   s.length_x = v.real("length_x"), s.length_y = v.real("length_y");
@@ -185,9 +187,13 @@ Numbering numbering_of(const Value& v) {
 }  // namespace
 
 std::vector<std::pair<std::string, scene::Schema>> mesh_variants() {
-  std::vector<std::pair<std::string, scene::Schema>> variants{
-      {"file", file_schema()},     {"box", box_schema()},         {"cylinder", cylinder_schema()},
-      {"sphere", sphere_schema()}, {"annulus", annulus_schema()}, {"plate", plate_schema()}};
+  std::vector<std::pair<std::string, scene::Schema>> variants{{"file", file_schema()},
+                                                              {"box", box_schema()},
+                                                              {"cylinder", cylinder_schema()},
+                                                              {"sphere", sphere_schema()},
+                                                              {"annulus", annulus_schema()},
+                                                              {"plate", plate_schema()},
+                                                              {"particles", particle_mesh_schema()}};
   for (auto& [name, schema] : variants)
     schema.choice(
         "numbering", {"automatic", "file", "hilbert", "shuffled"},
@@ -201,7 +207,9 @@ std::vector<std::pair<std::string, scene::Schema>> mesh_variants() {
 
 SceneMesh make_mesh(const Communicator& comm, const std::string& name, const scene::Value& block,
                     const std::string& folder, scene::Diagnostics& diagnostics) {
-  SceneMesh mesh{name, {}, {}, {}};
+  SceneMesh mesh;
+  mesh.name = name;
+  if (block.text("type") == "particles") mesh.dimension = static_cast<int>(block.integer("dimension"));
   const std::size_t before = diagnostics.errors().size();
   const std::function<MeshData()> make = recipe(block, folder, diagnostics);
   if (diagnostics.errors().size() > before) return mesh;

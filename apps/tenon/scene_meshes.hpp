@@ -20,6 +20,7 @@ struct SceneMesh {
   std::string name;
   MeshData data;
   MeshSummary summary;
+  int dimension = 3;      ///< of the volumes of particles
   std::string numbering;  ///< what was done to the order of nodes and elements, for the log
 };
 
