@@ -44,7 +44,7 @@ std::vector<SceneMesh> read_meshes(const Communicator& comm, Log& log, const Loa
                                    Diagnostics& diagnostics) {
   std::vector<SceneMesh> meshes;
   for (const auto& [name, block] : scene.value.entries("meshes")) {
-    meshes.push_back(make_mesh(comm, name, block, scene.folder, diagnostics));
+    meshes.push_back(make_mesh(comm, name, block, scene.folder, meshes, diagnostics));
     for (const std::string& warning : meshes.back().data.warnings) log.warning(name + ": " + warning);
     const MeshSummary& s = meshes.back().summary;
     log.print("mesh {}: {} nodes, {} elements in {} blocks ({})", name, s.nodes, s.elements, s.blocks.size(), s.source);
@@ -261,6 +261,32 @@ void add_contact(const Communicator& comm, const LoadedScene& scene, Simulation&
   }
 }
 
+// Particles that wait for the elements of another component to fail.
+void add_debris_links(const LoadedScene& scene, Simulation& simulation, Diagnostics& diagnostics) {
+  std::vector<std::string> names;
+  for (const auto& component : simulation.components()) names.push_back(component->name());
+  for (const auto& [name, component] : scene.value.entries("components")) {
+    if (component.text("type") != "sph") continue;
+    for (const auto& [block, own] : component.entries("blocks")) {
+      if (!own.has("from_elements")) continue;
+      const std::string& text = own.text("from_elements");
+      const std::size_t point = text.find('.');
+      Component* const source = simulation.find(text.substr(0, point));
+      if (point == std::string::npos || !source) {
+        diagnostics.error(own.where("from_elements"), "from_elements: '" + text + "' is not component.block" +
+                                                          scene::suggestion(text.substr(0, point), names));
+        continue;
+      }
+      try {
+        simulation.add(std::make_unique<DebrisLink>("debris_" + block, *source, text.substr(point + 1),
+                                                    *simulation.find(name), block));
+      } catch (const Error& problem) {
+        diagnostics.error(own.where("from_elements"), problem.what());
+      }
+    }
+  }
+}
+
 std::vector<std::string> shown_fields(Component& component) {
   std::vector<std::string> names;
   for (const ExportPort& port : component.exports())
@@ -349,6 +375,7 @@ BuiltScene build_simulation(const Communicator& comm, Log& log, const LoadedScen
   distribute_to(comm, meshes, planned, *built.simulation);
   add_contact(comm, scene, *built.simulation, diagnostics);
   add_transfers(scene, *built.simulation, diagnostics);
+  add_debris_links(scene, *built.simulation, diagnostics);
   built.output = read_output(scene, *built.simulation, diagnostics);
   diagnostics.throw_if_any();
   built.warnings = diagnostics.warnings();

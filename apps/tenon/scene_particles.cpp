@@ -7,10 +7,12 @@
 #include <array>
 #include <filesystem>
 
+#include "apps/tenon/scene_meshes.hpp"
 #include "framework/base/error.hpp"
 #include "framework/io/vtk_result.hpp"
 #include "framework/mesh/particle_bodies.hpp"
 #include "framework/mesh_files/readers.hpp"
+#include "framework/scene/known_names.hpp"
 
 namespace tenon {
 
@@ -91,9 +93,19 @@ Schema points_schema() {
   return s;
 }
 
+Schema elements_schema() {
+  Schema s(
+      "One particle for each solid element of a block, in its place: what elements become when they fail "
+      "(`from_elements` in the component).");
+  s.text("mesh", "Name of a mesh that stands before this one.").required();
+  s.text("block", "Block of that mesh.").required();
+  return s;
+}
+
 struct Common {
   int dimension;
   double spacing;  // 0: none
+  std::span<const SceneMesh> earlier;
 };
 
 double spacing_of(const Value& v, const Common& common, const std::string& name, Diagnostics& diagnostics) {
@@ -173,6 +185,21 @@ MeshData read_points(const std::string& path, double unit, std::optional<double>
   return in_unit(std::move(mesh), unit);
 }
 
+std::function<MeshData()> elements_recipe(const Value& v, std::span<const SceneMesh> earlier,
+                                          Diagnostics& diagnostics) {
+  std::vector<std::string> names;
+  for (const SceneMesh& mesh : earlier) names.push_back(mesh.name);
+  const auto found = std::ranges::find(names, v.text("mesh"));
+  if (found == names.end()) {
+    diagnostics.error(v.where("mesh"), "mesh: there is no mesh '" + v.text("mesh") + "' before this one" +
+                                           scene::suggestion(v.text("mesh"), names));
+    return [] { return MeshData(); };
+  }
+  const SceneMesh& mesh = earlier[static_cast<std::size_t>(found - names.begin())];
+  scene::check_name(v, "block", v.text("block"), mesh.summary.blocks, "block", mesh.summary.source, diagnostics);
+  return [&mesh, block = v.text("block")] { return particles_of_elements(mesh.data, block); };
+}
+
 std::function<MeshData()> body_recipe(const std::string& name, const Value& v, const Common& common,
                                       const std::string& folder, Diagnostics& diagnostics) {
   const std::string& type = v.text("type");
@@ -182,6 +209,7 @@ std::function<MeshData()> body_recipe(const std::string& name, const Value& v, c
     check_corners(v, common, diagnostics);
     return [tank = read_tank(v, common, name, diagnostics)] { return tank_walls(tank); };
   }
+  if (type == "elements") return elements_recipe(v, common.earlier, diagnostics);
   if (type == "points") {
     const auto spacing = v.has("spacing") ? std::optional(v.real("spacing")) : std::nullopt;
     return [file = path(), unit = v.real("unit"), spacing, dimension] {
@@ -228,14 +256,17 @@ Schema particle_mesh_schema() {
               {"cylinder", cylinder_schema()},
               {"tank", tank_schema()},
               {"mesh", mesh_schema()},
+              {"elements", elements_schema()},
               {"points", points_schema()}},
              "Bodies by name.")
       .required();
   return s;
 }
 
-std::function<MeshData()> particle_recipe(const Value& block, const std::string& folder, Diagnostics& diagnostics) {
-  const Common common{static_cast<int>(block.integer("dimension")), block.has("spacing") ? block.real("spacing") : 0};
+std::function<MeshData()> particle_recipe(const Value& block, const std::string& folder,
+                                          std::span<const SceneMesh> earlier, Diagnostics& diagnostics) {
+  const Common common{static_cast<int>(block.integer("dimension")), block.has("spacing") ? block.real("spacing") : 0,
+                      earlier};
   std::vector<std::pair<std::string, std::function<MeshData()>>> recipes;
   for (const auto& [name, body] : block.entries("bodies"))
     recipes.emplace_back(name, body_recipe(name, body, common, folder, diagnostics));

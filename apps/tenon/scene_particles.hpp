@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <string>
 
 #include "framework/mesh/mesh_data.hpp"
@@ -13,8 +14,11 @@ namespace tenon {
 /// Keys of a mesh of type `particles`.
 scene::Schema particle_mesh_schema();
 
-/// What makes it on rank 0; complaints are the same on every rank.
+struct SceneMesh;
+
+/// What makes it on rank 0; complaints are the same on every rank. `earlier`: meshes whose elements bodies may be made
+/// of, at the time of the call.
 std::function<MeshData()> particle_recipe(const scene::Value& block, const std::string& folder,
-                                          scene::Diagnostics& diagnostics);
+                                          std::span<const SceneMesh> earlier, scene::Diagnostics& diagnostics);
 
 }  // namespace tenon

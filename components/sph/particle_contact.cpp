@@ -27,7 +27,7 @@ void ParticleContact::contact_particles(std::vector<ContactParticle>& particles)
   particles.clear();
   for (const LocalIndex n : parts_.mesh.owned_nodes) {
     const auto i = static_cast<std::size_t>(n);
-    if (surface_[i] < 0) continue;
+    if (surface_[i] < 0 || is_waiting(i)) continue;
     const double spacing = std::pow(parts_.mesh.volumes[i], 1.0 / parts_.options.dimension);
     particles.push_back({n, 0.5 * spacing, surface_[i]});
   }
@@ -55,7 +55,7 @@ void ParticleContact::initialize() {
   parts_.home.to_nodes(parts_.decomposition.version(), mass, inverse_mass_, 1);
   for (const LocalIndex n : parts_.mesh.owned_nodes) {
     const auto i = static_cast<std::size_t>(n);
-    inverse_mass_[i] = surface_[i] < 0 ? 0 : 1 / inverse_mass_[i];
+    inverse_mass_[i] = surface_[i] < 0 || is_waiting(i) ? 0 : 1 / inverse_mass_[i];
   }
   bring(parts_.particles.position, position_);
   bring(parts_.particles.velocity, velocity_);

@@ -25,7 +25,8 @@ class ParticleContact final : public ContactParty {
     ParticleData& particles;
     ParticleDecomposition& decomposition;
     HomeExchange& home;
-    std::function<void()> moved;  ///< collective: after places changed without a step
+    const std::vector<char>& waits;  ///< of nodes: 1 where no particle is yet; empty: they all are
+    std::function<void()> moved;     ///< collective: after places changed without a step
   };
   /// Collective.
   explicit ParticleContact(const Parts& parts);
@@ -35,7 +36,7 @@ class ParticleContact final : public ContactParty {
   void contact_faces(std::vector<ContactFace>& faces) const override { faces.clear(); }
   void contact_particles(std::vector<ContactParticle>& particles) const override;
   double effusivity(std::int32_t surface) const override;
-  std::int64_t surface_version() const override { return 0; }
+  std::int64_t surface_version() const override { return version_; }
   void watch(std::span<const LocalIndex> nodes) override;
   std::span<const Vec3> contact_positions() const override { return position_; }
   std::span<const Vec3> contact_velocities() const override { return velocity_; }
@@ -50,6 +51,11 @@ class ParticleContact final : public ContactParty {
 
   /// Collective. Masses, radii and places at the start of a run.
   void initialize();
+  /// Collective. After particles came in.
+  void renew() {
+    initialize();
+    ++version_;
+  }
   /// Collective, after the kick.
   void begin(double kick);
   /// Collective, before the drift.
@@ -59,6 +65,7 @@ class ParticleContact final : public ContactParty {
   std::int64_t memory() const;
 
  private:
+  bool is_waiting(std::size_t node) const { return !parts_.waits.empty() && parts_.waits[node] != 0; }
   void bring(const Column& column, std::vector<Vec3>& nodes);
 
   Parts parts_;
@@ -69,6 +76,7 @@ class ParticleContact final : public ContactParty {
   std::vector<Vec3> watched_former_;
   std::unique_ptr<ContactFields> fields_;
   double kick_ = 0;
+  std::int64_t version_ = 0;
   bool pushed_ = false;
 };
 

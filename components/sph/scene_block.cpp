@@ -62,6 +62,9 @@ void read_bodies(const Value& value, const MeshSummary& mesh, const std::map<std
     for (SphBody& body : options.bodies) {
       if (body.name != name) continue;
       body.wall = own.flag("wall");
+      body.waits = own.has("from_elements");
+      if (body.wall && body.waits)
+        diagnostics.error(own.where("wall"), "wall: what elements become is not a wall; leave one of the two out");
       if (own.has("velocity") && !body.wall)
         diagnostics.error(own.where("velocity"),
                           "velocity: only a wall moves as told; say `wall: true`, or `initial_velocity`");

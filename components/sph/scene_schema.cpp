@@ -43,6 +43,9 @@ Schema block_schema() {
       "as many layers as the kernel reaches.",
       "false");
   s.object("velocity", components_schema("Velocity over time.", "m/s", false), "Of a wall that moves.");
+  s.text("from_elements",
+         "Component and block of solid elements, as `plate.target`: each particle waits, and is the element from when "
+         "that fails on, with its mass, momentum and energy. The mesh has them from a body of `type: elements`.");
   add_start(s);
   return s;
 }

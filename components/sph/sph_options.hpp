@@ -32,6 +32,7 @@ struct SphBody {
   MaterialDescription material;
   bool wall = false;                                     ///< does not feel forces: stands still, or moves as told
   std::array<TimeFunction, 3> velocity;                  ///< of a wall, m/s
+  bool waits = false;                                    ///< not there until an element becomes it (DebrisTarget)
   std::array<SpaceTimeFunction, 3> initial_velocity;     ///< m/s, of the places at the start
   std::optional<SpaceTimeFunction> initial_pressure;     ///< Pa; the density follows from it
   std::optional<SpaceTimeFunction> initial_density;      ///< kg/m^3; else that of the material

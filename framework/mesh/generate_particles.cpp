@@ -9,6 +9,7 @@
 #include "framework/mesh/generator_tools.hpp"
 #include "framework/mesh/generators.hpp"
 #include "framework/mesh/particle_bodies.hpp"
+#include "framework/mesh/shape_functions.hpp"
 
 namespace tenon {
 
@@ -165,6 +166,29 @@ MeshData tank_walls(const TankShape& shape) {
       }
   if (walls.empty()) throw Error(ExitCode::usage, "tank: all sides are open; leave the body out");
   return mesh_of(walls, volume, "tank of particles");
+}
+
+MeshData particles_of_elements(const MeshData& mesh, const std::string& block) {
+  const auto found = std::ranges::find(mesh.blocks, block, &BlockData::name);
+  if (found == mesh.blocks.end() || topology(found->kind).dimension != 3)
+    throw Error(ExitCode::usage, fmt::format("{}: there is no block '{}' of solid elements that could become particles",
+                                             mesh.source, block));
+  const auto nodes = static_cast<std::size_t>(topology(found->kind).nodes);
+  const auto corners = static_cast<std::size_t>(corner_count(found->kind));
+  std::vector<Vec3> places, x(nodes);
+  std::vector<double> volumes;
+  for (std::size_t e = 0; e < found->size(); ++e) {
+    Vec3 sum{};
+    for (std::size_t i = 0; i < nodes; ++i) {
+      x[i] = mesh.coordinates[static_cast<std::size_t>(found->connectivity[nodes * e + i])];
+      if (i < corners) sum = sum + x[i];
+    }
+    places.push_back((1.0 / static_cast<double>(corners)) * sum);
+    volumes.push_back(element_measure(found->kind, x));
+  }
+  MeshData particles = mesh_of(places, 0, "elements of " + mesh.source);
+  particles.volumes = std::move(volumes);
+  return particles;
 }
 
 MeshData join_particles(std::vector<std::pair<std::string, MeshData>> bodies) {

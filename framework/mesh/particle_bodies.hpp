@@ -66,6 +66,10 @@ struct TankShape {
 };
 MeshData tank_walls(const TankShape& shape);
 
+/// One particle for each solid element of a block, in their order: in the mean of its corners, with its volume. Throws
+/// Error(usage) if there is no such block, or it has no solids.
+MeshData particles_of_elements(const MeshData& mesh, const std::string& block);
+
 /// One mesh of all, each a block of the given name; numbered from 1.
 MeshData join_particles(std::vector<std::pair<std::string, MeshData>> bodies);
 

@@ -24,9 +24,10 @@ struct ParticlesOnMesh {
 
 class ParticlesOnMeshRun {
  public:
-  /// Collective. `checkpoint` continues an earlier run.
+  using Extend = std::function<void(Simulation&, Component& body, Component& particles)>;
+  /// Collective. `checkpoint` continues an earlier run; `extend` adds what else there is.
   explicit ParticlesOnMeshRun(const ParticlesOnMesh& scene, const Communicator& comm = communicator(),
-                              const std::string& checkpoint = "")
+                              const std::string& checkpoint = "", const Extend& extend = {})
       : comm_(comm), simulation_(comm, log_, 0, scene.end) {
     MeshData mesh = scene.mesh, particles = scene.particles;
     DistributeOptions by_place;
@@ -37,6 +38,7 @@ class ParticlesOnMeshRun {
         std::make_unique<Sph>("particles", distribute(comm, std::move(particles), by_place), scene.sph)));
     contact_ = static_cast<Contact*>(&simulation_.add(
         std::make_unique<Contact>("contact", comm, std::vector<Component*>{body_, sph_}, scene.contact)));
+    if (extend) extend(simulation_, *body_, *sph_);
     if (checkpoint.empty()) {
       simulation_.initialize();
     } else {
@@ -110,7 +112,7 @@ class ParticlesOnMeshRun {
     for (const Column* column : {&p.position, &p.velocity}) {
       const std::vector<GlobalId> ids = comm_.gather(std::span<const GlobalId>(p.ids).first(p.owned()));
       const std::vector<double> values = comm_.gather(std::span<const double>(column->values).first(3 * p.owned()));
-      std::vector<double> ordered(values.size());
+      std::vector<double> ordered(3 * static_cast<std::size_t>(sph_->mesh().global_nodes));
       for (std::size_t k = 0; k < ids.size(); ++k)
         std::copy_n(&values[3 * k], 3, &ordered[3 * static_cast<std::size_t>(ids[k])]);
       all.insert(all.end(), ordered.begin(), ordered.end());
