@@ -25,8 +25,7 @@ class ParticleContact final : public ContactParty {
     ParticleData& particles;
     ParticleDecomposition& decomposition;
     HomeExchange& home;
-    const std::vector<char>& waits;  ///< of nodes: 1 where no particle is yet; empty: they all are
-    std::function<void()> moved;     ///< collective: after places changed without a step
+    std::function<void()> moved;  ///< collective: after places changed without a step
   };
   /// Collective.
   explicit ParticleContact(const Parts& parts);
@@ -65,11 +64,11 @@ class ParticleContact final : public ContactParty {
   std::int64_t memory() const;
 
  private:
-  bool is_waiting(std::size_t node) const { return !parts_.waits.empty() && parts_.waits[node] != 0; }
+  void find_surfaces();
   void bring(const Column& column, std::vector<Vec3>& nodes);
 
   Parts parts_;
-  std::vector<std::int32_t> surface_;  // of nodes; -1: a wall, which does not touch
+  std::vector<std::int32_t> surface_;  // of nodes; -1: what does not touch
   std::vector<double> inverse_mass_, radius_, work_;
   std::vector<Vec3> position_, velocity_, former_, impulse_;
   std::vector<LocalIndex> watched_;

@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -40,6 +41,21 @@ void read_start(const Value& v, SphBody& body) {
   take("initial_temperature", body.initial_temperature);
 }
 
+void read_inflow(const Value& own, const std::vector<SphBody>& bodies, SphBody& body, Diagnostics& diagnostics) {
+  const Value v = own.child("inflow");
+  SphInflow& inflow = body.inflow.emplace();
+  inflow.point = v.vector("point"), inflow.normal = v.vector("normal");
+  if (!(norm(inflow.normal) > 0))
+    diagnostics.error(v.where("normal"), "normal: expected a direction, found the zero vector");
+  if (!body.wall) diagnostics.error(own.where("inflow"), "inflow: only a wall brings particles in; say `wall: true`");
+  const std::string& into = v.text("into");
+  std::vector<std::string> names;
+  for (const SphBody& other : bodies) names.push_back(other.name);
+  inflow.into = static_cast<std::size_t>(std::ranges::find(names, into) - names.begin());
+  if (inflow.into == names.size() || bodies[inflow.into].name == body.name)
+    diagnostics.error(v.where("into"), "into: there is no other block '" + into + "'" + scene::suggestion(into, names));
+}
+
 void read_bodies(const Value& value, const MeshSummary& mesh, const std::map<std::string, MaterialDescription>& known,
                  SphOptions& options, Diagnostics& diagnostics) {
   for (const MeshSummary::Entry& block : mesh.blocks)
@@ -63,6 +79,7 @@ void read_bodies(const Value& value, const MeshSummary& mesh, const std::map<std
       if (body.name != name) continue;
       body.wall = own.flag("wall");
       body.waits = own.has("from_elements");
+      if (own.has("inflow")) read_inflow(own, options.bodies, body, diagnostics);
       if (body.wall && body.waits)
         diagnostics.error(own.where("wall"), "wall: what elements become is not a wall; leave one of the two out");
       if (own.has("velocity") && !body.wall)

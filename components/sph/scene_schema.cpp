@@ -34,6 +34,14 @@ void add_start(Schema& s) {
                    "Temperature at the start; without it the material's reference temperature.");
 }
 
+Schema inflow_schema() {
+  Schema s("Plane behind which the particles of a moving wall are free.");
+  s.vector("point", "m", "Point of the plane.").required();
+  s.vector("normal", "1", "Where they go, of any length.").required();
+  s.text("into", "Block that they belong to from then on.").required();
+  return s;
+}
+
 Schema block_schema() {
   Schema s("Particles of one block of the mesh.");
   s.text("material", "Name of a material.").required();
@@ -43,6 +51,8 @@ Schema block_schema() {
       "as many layers as the kernel reaches.",
       "false");
   s.object("velocity", components_schema("Velocity over time.", "m/s", false), "Of a wall that moves.");
+  s.object("inflow", inflow_schema(),
+           "Of a wall that moves: its particles flow in. The wall is as long as what flows in during the run.");
   s.text("from_elements",
          "Component and block of solid elements, as `plate.target`: each particle waits, and is the element from when "
          "that fails on, with its mass, momentum and energy. The mesh has them from a body of `type: elements`.");

@@ -45,6 +45,8 @@ Sph::Sph(std::string name, std::shared_ptr<const Mesh> mesh, SphOptions options)
   for (const SphBody& body : options_.bodies) has_walls_ = has_walls_ || body.wall;
   if (has_gravity_) gravity_work_ = &particles_.add("gravity_work", ColumnKind::scalar, 1, true);
   if (has_walls_) boundary_work_ = &particles_.add("boundary_work", ColumnKind::scalar, 1, true);
+  if (std::ranges::any_of(options_.bodies, [](const SphBody& body) { return body.inflow.has_value(); }))
+    inflow_energy_ = &particles_.add("inflow_energy", ColumnKind::scalar, 1, true);
   if (std::ranges::any_of(options_.bodies, &SphBody::waits)) {
     debris_heat_ = &particles_.add("debris_energy", ColumnKind::scalar, 1, true);
     debris_work_ = &particles_.add("taken_from_elements", ColumnKind::scalar, 1, true);
@@ -137,7 +139,7 @@ void Sph::end_step(double dt) {
   drift(dt);
   {
     const ScopedTimer timer(*phases_.order);
-    if (decomposition_->follow()) ++renewals_;
+    if (bring_in() || decomposition_->follow()) ++renewals_;
   }
   compute(dt);
   set_time(time() + dt);
@@ -255,7 +257,7 @@ StepLimiter Sph::limiter() {
 ContactParty* Sph::contact_party() {
   if (contact_) return contact_.get();
   contact_ = std::make_unique<ParticleContact>(
-      ParticleContact::Parts{*mesh_, options_, particles_, *decomposition_, *home_, waits_, [this] {
+      ParticleContact::Parts{*mesh_, options_, particles_, *decomposition_, *home_, [this] {
                                decomposition_->renew();
                                compute(0);
                                choose_step();

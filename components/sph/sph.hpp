@@ -68,6 +68,7 @@ class Sph final : public Component, public DebrisTarget {
  private:
   void place_particles();
   void refuse_misfits() const;
+  bool bring_in();
   void find_waiting();
   void place(std::size_t particle, LocalIndex node);
   std::int32_t body_of_block(const std::string& block) const;
@@ -96,6 +97,7 @@ class Sph final : public Component, public DebrisTarget {
   std::vector<ForcePart> forces_;
   Column* gravity_work_ = nullptr;   // kept, J
   Column* boundary_work_ = nullptr;  // of walls, J
+  Column* inflow_energy_ = nullptr;  // of particles when they became free, J
   Column* debris_heat_ = nullptr;    // of what elements became, beyond its motion, J
   Column* debris_work_ = nullptr;    // what they brought in all, J
   bool has_gravity_ = false, has_walls_ = false;

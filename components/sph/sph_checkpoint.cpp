@@ -36,6 +36,11 @@ void Sph::save(CheckpointWriter& file) {
     values.resize(n * ids.size());
     file.array(key(column.name), order, values, column.components);
   }
+  if (inflow_energy_) {
+    values.assign(particles_.body.begin(), particles_.body.begin() + static_cast<std::ptrdiff_t>(owned));
+    values.resize(ids.size());
+    file.array(key("body"), order, values, 1);
+  }
   if (!waits_.empty()) save_waiting(file);
   formulation_->save(file);
   if (!contact_) return;
@@ -65,6 +70,11 @@ void Sph::load(const CheckpointReader& file) {
       file.array(key(column.name), order,
                  std::span(column.values).first(owned * static_cast<std::size_t>(column.components)),
                  column.components);
+  if (inflow_energy_) {
+    std::vector<double> body(owned);
+    file.array(key("body"), order, body, 1);
+    std::ranges::copy(body, particles_.body.begin());
+  }
   formulation_->load(file);
   loaded_ = true;
   if (!contact_) return;

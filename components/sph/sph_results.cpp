@@ -98,6 +98,7 @@ void Sph::energies(std::vector<EnergyTerm>& terms) {
   formulation_->energies(terms);
   if (has_gravity_) row("gravity_work", Role::supplied, *gravity_work_);
   if (has_walls_) row("boundary_work", Role::supplied, *boundary_work_);
+  if (inflow_energy_) row("inflow_energy", Role::supplied, *inflow_energy_);
   if (debris_heat_) {
     row("debris_energy", Role::stored, *debris_heat_);
     row("taken_from_elements", Role::supplied, *debris_work_);
@@ -110,6 +111,23 @@ std::vector<HistoryValue> Sph::history_values() {
   double fastest = 0;
   for (std::size_t i = 0; i < particles_.owned(); ++i) fastest = std::max(fastest, norm(particles_.velocity.vec(i)));
   values.push_back({"greatest_speed", HistoryValue::Reduce::max, fastest});
+  // Exact, so collective here; the same on every rank then.
+  std::array<ExactSum, 7> sums;
+  for (std::size_t i = 0; i < particles_.owned(); ++i) {
+    if (has_walls_ && is_wall(i)) continue;
+    const double m = particles_.mass[i];
+    sums[0].add(m);
+    for (std::size_t c = 0; c < 3; ++c)
+      sums[1 + c].add(m * particles_.position[3 * i + c]), sums[4 + c].add(m * particles_.velocity[3 * i + c]);
+  }
+  std::array<double, 7> totals{};
+  mesh_->comm.sum(sums, totals);
+  values.push_back({"mass", HistoryValue::Reduce::max, totals[0]});
+  for (std::size_t c = 0; c < static_cast<std::size_t>(options_.dimension); ++c) {
+    const std::string axis(1, "xyz"[c]);
+    values.push_back({"centre_" + axis, HistoryValue::Reduce::max, totals[0] > 0 ? totals[1 + c] / totals[0] : 0});
+    values.push_back({"momentum_" + axis, HistoryValue::Reduce::max, totals[4 + c]});
+  }
   return values;
 }
 
