@@ -186,6 +186,10 @@ SphOptions read_sph(const Value& value, const MeshSummary& mesh, int dimension,
         v.text("viscosity"),
         {{{"artificial", Viscosity::artificial}, {"morris", Viscosity::morris}, {"monaghan", Viscosity::monaghan}}});
     options.fluid.density_diffusion = v.real("density_diffusion");
+    options.fluid.hydrostatic_diffusion = v.flag("hydrostatic_diffusion");
+    options.fluid.shifting_strength = v.real("shifting_strength");
+    options.fluid.background_pressure = v.real("background_pressure");
+    options.fluid.slip = v.flag("wall_slip");
     options.fluid.shifting =
         chosen<Shifting, 3>(v.text("shifting"), {{{"none", Shifting::none},
                                                   {"shifting", Shifting::shifting},

@@ -96,9 +96,14 @@ Schema fluid_schema() {
       "artificial");
   s.quantity("density_diffusion", "1", "Coefficient of delta-SPH, which keeps the pressure smooth; 0: none.", "0.1",
              {0, 1, false, false});
+  s.flag("hydrostatic_diffusion", "The density that gravity makes is left out of the diffusion.", "true");
   s.choice("shifting", {"none", "shifting", "transport_velocity"},
            "Keeps particles evenly spread where streamlines would part them; for flows without violent free surfaces.",
            "none");
+  s.quantity("shifting_strength", "1", "Over what is usual.", "1", {0, 10, false, false});
+  s.quantity("background_pressure", "Pa", "Added to every pressure, against voids; for flows without free surfaces.",
+             "0 Pa", Range::not_negative());
+  s.flag("wall_slip", "Fluid passes along walls freely; else it holds on to them (needs a `viscosity`).", "true");
   return s;
 }
 
