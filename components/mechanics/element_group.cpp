@@ -29,7 +29,6 @@ LocalIndex ElementGroup::node(LocalIndex element, int corner) const {
 // An equal share of the mass of each element for each node of it: [HUG87, 7.3.2].
 void ElementGroup::add_masses(const NodalMasses& masses) const {
   for (LocalIndex e = 0; e < size_; ++e) {
-    if (!departed.empty() && value_of(departed, e) != 0) continue;
     const std::span<const LocalIndex> nodes = elements_.nodes(e);
     const double share = value_of(mass, e) / static_cast<double>(nodes.size());
     for (const LocalIndex n : nodes) masses.mass[static_cast<std::size_t>(n)] += share;
@@ -88,8 +87,6 @@ std::vector<StateArray> ElementGroup::state() {
   add("heat_given", heat_given);
   add("dead", dead);
   add("internal_energy", internal_energy);
-  add("departed", departed);
-  add("departed_energy", departed_energy);
   add("verified_wave_steps", verified_wave_steps);
   return arrays;
 }

@@ -137,8 +137,6 @@ class ElementGroup {
   /// Only where elements can die: 1 from the step on in which it did, and the energy within, J (of a dead element
   /// that at its death).
   ElementValues dead, internal_energy;
-  /// Only where elements become particles when they die: 1 once mass, momentum and energy (J) have left, and that energy.
-  ElementValues departed, departed_energy;
   /// Only where their step or shape can take elements out: 1 if it has done so at the present positions. Their stress
   /// still acts there (not if they are inside out); they are dead from the next step on.
   ElementValues doomed;

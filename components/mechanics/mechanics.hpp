@@ -109,6 +109,9 @@ class Mechanics final : public Component, public DebrisSource {
   void sum_removed();
   bool any_gone() const;
   void drop_gone_masses();
+  void invert_masses();
+  void save_departed(CheckpointWriter& file) const;
+  void load_departed(const CheckpointReader& file);
   std::size_t giving_block(const std::string& block) const;
   void set_rigid_rates();
   void set_bound_rates();
@@ -167,7 +170,14 @@ class Mechanics final : public Component, public DebrisSource {
   std::unique_ptr<ContactSide> contact_;  // if asked for
   std::int64_t deaths_ = 0;               // of elements of this rank, as of the last step
   std::int64_t death_events_ = 0;         // steps in which elements have died on any rank
-  std::vector<std::int64_t> given_up_;    // of each block: events that were followed; -1: it keeps what fails
+  /// Of each block: what has become particles. Elements as in its group.
+  struct GivenUp {
+    bool any = false;            // what fails is given up
+    std::int64_t followed = 0;   // events
+    std::vector<char> departed;  // 1: mass, momentum and energy have left
+    std::vector<double> energy;  // that energy, J
+  };
+  std::vector<GivenUp> given_up_;
 
   double previous_dt_ = 0;  // of the last half step
   double stable_step_ = 0;  // what time_step() says

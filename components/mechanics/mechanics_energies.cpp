@@ -48,10 +48,11 @@ void Mechanics::energies(std::vector<EnergyTerm>& terms) {
     hourglass.local.add(h), viscosity.local.add(v);
     internal.local.add(-h), internal.local.add(-v);
     if (!group.alive(e)) {
-      const bool gone = !group.departed.empty() && value_of(group.departed, e) != 0;
+      const bool gone = !given_up_.empty() && given_up_[group.block()].any &&
+                        given_up_[group.block()].departed[static_cast<std::size_t>(e)] != 0;
       internal.local.add(-value_of(group.internal_energy, e));
       if (gone)
-        debris.local.add(-value_of(group.departed_energy, e));
+        debris.local.add(-given_up_[group.block()].energy[static_cast<std::size_t>(e)]);
       else
         eroded.local.add(value_of(group.internal_energy, e));
     }
@@ -61,7 +62,7 @@ void Mechanics::energies(std::vector<EnergyTerm>& terms) {
   if (loose_)
     for (const LooseNodes::Removed& removed : loose_->removed()) eroded.local.add(removed.energy);
   if (can_fail) terms.push_back(std::move(eroded));
-  if (std::ranges::any_of(given_up_, [](std::int64_t events) { return events >= 0; }))
+  if (std::ranges::any_of(given_up_, [](const GivenUp& given) { return given.any; }))
     terms.push_back(std::move(debris));
   if (conditions_.has_motions()) terms.push_back(std::move(boundary));
   if (conditions_.has_walls()) terms.push_back(std::move(wall));

@@ -26,19 +26,19 @@ void Sph::save(CheckpointWriter& file) {
   file.scalar(key("previous_dt"), previous_dt_);
   file.integer(key("steps"), steps_);
   const std::size_t owned = particles_.owned();
-  const std::vector<GlobalId> ids = with_waiting(particles_, *mesh_, waits_);
-  const GlobalOrder order(mesh_->comm, ids, mesh_->global_nodes);
+  const std::vector<GlobalId> all = with_waiting(particles_, *mesh_, waits_);
+  const GlobalOrder order(mesh_->comm, all, mesh_->global_nodes);
   std::vector<double> values;
   for (const Column& column : particles_.columns()) {
     if (!column.kept) continue;
     const auto n = static_cast<std::size_t>(column.components);
     values.assign(column.values.begin(), column.values.begin() + static_cast<std::ptrdiff_t>(n * owned));
-    values.resize(n * ids.size());
+    values.resize(n * all.size());
     file.array(key(column.name), order, values, column.components);
   }
   if (inflow_energy_) {
     values.assign(particles_.body.begin(), particles_.body.begin() + static_cast<std::ptrdiff_t>(owned));
-    values.resize(ids.size());
+    values.resize(all.size());
     file.array(key("body"), order, values, 1);
   }
   if (!waits_.empty()) save_waiting(file);

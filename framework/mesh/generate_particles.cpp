@@ -123,7 +123,8 @@ MeshData fill_region(const ParticleRegion& region, const ParticleFill& fill) {
   Vec3 low = region.bounds.low;
   for (std::size_t c = 0; c < static_cast<std::size_t>(fill.dimension); ++c) {
     const double length = region.bounds.high[c] - region.bounds.low[c];
-    count[c] = static_cast<int>(std::min(std::ceil(length / pitch[c]) + 1, 1e9));
+    constexpr double whole = 1e-9;  // of a cell: round-off makes no further one
+    count[c] = static_cast<int>(std::min(std::max(std::ceil(length / pitch[c] - whole), 1.0), 1e9));
     low[c] -= 0.5 * (count[c] * pitch[c] - length);
   }
   std::vector<Vec3> places = lattice(low, count, pitch, fill);

@@ -15,11 +15,12 @@ constexpr double smoothing = 1.3, push = 0.2;
 /// No way in a sweep is longer than this share of the spacing, and below that one they count as at rest.
 constexpr double longest_way = 0.2, rest = 0.01;
 
-/// Slope of Wendland's C2 kernel over q = r/h times h^(d+1), up to q = 2.
+/// How pairs push each other over q = r/h, up to q = 2, over h^(d+1). As the slope of Wendland's C2 kernel where
+/// neighbours are, but not less for those that are nearer: these would form pairs.
 double slope(double q, int dimension) {
   const double sigma = dimension == 2 ? 7 / (4 * 3.14159265358979) : 21 / (16 * 3.14159265358979);
   const double rest_of_support = 1 - 0.5 * q;
-  return -5 * sigma * q * rest_of_support * rest_of_support * rest_of_support;
+  return -5 * sigma * std::max(q, 0.5) * rest_of_support * rest_of_support * rest_of_support;
 }
 
 }  // namespace
