@@ -80,6 +80,18 @@ std::vector<Vec3> load_coordinates(const CheckpointReader& file, const std::stri
   return coordinates;
 }
 
+/// Particles fill no elements in which a point could be sought: they are points. Local; the same on every rank.
+bool is_cloud(const Mesh& mesh) {
+  return std::ranges::all_of(mesh.blocks,
+                             [](const ElementBlock& block) { return block.kind == ElementKind::particle; });
+}
+
+/// Of particles, each of which is on one rank only.
+PointCloud points_of(const Component& component) {
+  const Mesh& mesh = component.mesh();
+  return {mesh.comm, is_cloud(mesh) ? mesh.node_ids : std::vector<GlobalId>{}, component.name()};
+}
+
 }  // namespace
 
 OwnedItems owned_items(const Mesh& mesh, Location location) {
@@ -105,7 +117,9 @@ FieldLink::FieldLink(std::string name, Component& source, Component& target, Fie
     : Coupling(std::move(name), source, target, options.schedule),
       options_(std::move(options)),
       export_(take_port(source.exports(), options_.source_field, this->name(), source, "gives")),
-      import_(take_port(target.imports(), options_.target_field, this->name(), target, "takes")) {
+      import_(take_port(target.imports(), options_.target_field, this->name(), target, "takes")),
+      source_points_(points_of(source)),
+      target_points_(points_of(target)) {
   check_pair(this->name(), export_.field, import_.field);
   if (options_.schedule == CouplingSchedule::slower_step && !import_.at_source_steps.empty())
     throw Error(ExitCode::usage, fmt::format("transfer '{}': {}, or let it run `every: source_step`", this->name(),
@@ -136,6 +150,18 @@ void FieldLink::initialize() {
   build();
 }
 
+Grid FieldLink::grid_of(const Component& component, std::span<const Vec3> coordinates, Location location) const {
+  Grid grid;
+  grid.coordinates = coordinates, grid.location = location;
+  if (!is_cloud(component.mesh())) {
+    grid.mesh = &component.mesh();
+    return grid;
+  }
+  grid.location = Location::particle;
+  grid.cloud = &component == &source() ? &source_points_ : &target_points_;
+  return grid;
+}
+
 void FieldLink::build() {
   const bool current = options_.configuration == Configuration::current;
   const auto place = [current](const Component& c) {
@@ -143,11 +169,11 @@ void FieldLink::build() {
   };
   // After a restart the map is first that of the interrupted run, so that it goes on as if nothing had happened.
   const bool restored = current && restored_;
-  const Grid from{&source().mesh(),       restored ? std::span<const Vec3>(source_built_) : place(source()),
-                  export_.field.location, nullptr,
-                  options_.blocks,        options_.side_set};
-  const Grid to{&target().mesh(), restored ? std::span<const Vec3>(target_built_) : place(target()),
-                import_.field.location};
+  Grid from =
+      grid_of(source(), restored ? std::span<const Vec3>(source_built_) : place(source()), export_.field.location);
+  from.blocks = options_.blocks, from.sides = options_.side_set;
+  const Grid to =
+      grid_of(target(), restored ? std::span<const Vec3>(target_built_) : place(target()), import_.field.location);
   options_.transfer.moving = current;
   map_ = std::make_unique<GridTransfer>(from, to, export_.field, options_.transfer, name());
 }
@@ -244,8 +270,8 @@ std::string FieldLink::round_trip() const {
   if (options.outside == OutsidePolicy::error) options.outside = OutsidePolicy::nearest;
   options.greatest_distance = std::numeric_limits<double>::infinity();
   try {
-    const GridTransfer back({&target().mesh(), place(target()), import_.field.location},
-                            {&source().mesh(), place(source()), export_.field.location}, export_.field, options,
+    const GridTransfer back(grid_of(target(), place(target()), import_.field.location),
+                            grid_of(source(), place(source()), export_.field.location), export_.field, options,
                             name() + ".back");
     return fmt::format("forth and back: values change by {:.3g} {} at most",
                        map_->round_trip_error(back, source_values_, export_.field.components), export_.field.unit);

@@ -8,6 +8,7 @@
 
 #include "framework/simulation/coupling.hpp"
 #include "transfer/grid_transfer.hpp"
+#include "transfer/point_cloud.hpp"
 #include "transfer/time_samples.hpp"
 
 namespace tenon::transfer {
@@ -51,12 +52,14 @@ class FieldLink : public Coupling {
   bool total() const { return export_.field.kind == FieldKind::total; }
   void build();
   void follow();
+  Grid grid_of(const Component& component, std::span<const Vec3> coordinates, Location location) const;
   std::string round_trip() const;
   std::vector<double> waiting() const;  // of the owned target items
 
   FieldLinkOptions options_;
   ExportPort export_;
   ImportPort import_;
+  PointCloud source_points_, target_points_;  // what stands for meshes of particles
   std::unique_ptr<GridTransfer> map_;
   std::int64_t updates_skipped_ = 0;
   std::vector<double> source_values_, target_values_;

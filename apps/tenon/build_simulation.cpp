@@ -15,6 +15,8 @@
 #include "components/materials/read_material.hpp"
 #include "components/mechanics/mechanics.hpp"
 #include "components/mechanics/scene_block.hpp"
+#include "components/sph/scene_block.hpp"
+#include "components/sph/sph.hpp"
 #include "components/thermal/scene_block.hpp"
 #include "components/thermal/thermal.hpp"
 #include "transfer/field_link.hpp"
@@ -35,13 +37,14 @@ struct Planned {
   std::size_t mesh;
   ElementCost cost;
   MakeComponent make;
+  PartitionMethod partition = PartitionMethod::automatic;
 };
 
 std::vector<SceneMesh> read_meshes(const Communicator& comm, Log& log, const LoadedScene& scene,
                                    Diagnostics& diagnostics) {
   std::vector<SceneMesh> meshes;
   for (const auto& [name, block] : scene.value.entries("meshes")) {
-    meshes.push_back(make_mesh(comm, name, block, scene.folder, diagnostics));
+    meshes.push_back(make_mesh(comm, name, block, scene.folder, meshes, diagnostics));
     for (const std::string& warning : meshes.back().data.warnings) log.warning(name + ": " + warning);
     const MeshSummary& s = meshes.back().summary;
     log.print("mesh {}: {} nodes, {} elements in {} blocks ({})", name, s.nodes, s.elements, s.blocks.size(), s.source);
@@ -81,6 +84,15 @@ std::vector<Planned> plan_components(const LoadedScene& scene, const std::vector
       planned.push_back({name, mesh, std::move(cost), [name = name, options](std::shared_ptr<const Mesh> m) {
                            return std::make_unique<Mechanics>(name, std::move(m), options);
                          }});
+    } else if (block.text("type") == "sph") {
+      SphOptions options = read_sph(block, summary, meshes[mesh].dimension, materials, diagnostics);
+      planned.push_back({name,
+                         mesh,
+                         {},
+                         [name = name, options](std::shared_ptr<const Mesh> m) {
+                           return std::make_unique<Sph>(name, std::move(m), options);
+                         },
+                         PartitionMethod::rcb});  // particles have no graph
     } else {
       ThermalOptions options = read_thermal(block, summary, materials, diagnostics);
       if (options.stepper == ThermalStepper::steady && !options.fixed_step &&
@@ -106,6 +118,7 @@ void distribute_to(const Communicator& comm, std::vector<SceneMesh>& meshes, con
     MeshData data = last ? std::move(mesh.data) : mesh.data;
     DistributeOptions options;
     options.cost = planned[p].cost;
+    options.method = planned[p].partition;
     options.name = planned[p].name;
     simulation.add(planned[p].make(distribute(comm, std::move(data), options)));
   }
@@ -248,6 +261,32 @@ void add_contact(const Communicator& comm, const LoadedScene& scene, Simulation&
   }
 }
 
+// Particles that wait for the elements of another component to fail.
+void add_debris_links(const LoadedScene& scene, Simulation& simulation, Diagnostics& diagnostics) {
+  std::vector<std::string> names;
+  for (const auto& component : simulation.components()) names.push_back(component->name());
+  for (const auto& [name, component] : scene.value.entries("components")) {
+    if (component.text("type") != "sph") continue;
+    for (const auto& [block, own] : component.entries("blocks")) {
+      if (!own.has("from_elements")) continue;
+      const std::string& text = own.text("from_elements");
+      const std::size_t point = text.find('.');
+      Component* const source = simulation.find(text.substr(0, point));
+      if (point == std::string::npos || !source) {
+        diagnostics.error(own.where("from_elements"), "from_elements: '" + text + "' is not component.block" +
+                                                          scene::suggestion(text.substr(0, point), names));
+        continue;
+      }
+      try {
+        simulation.add(std::make_unique<DebrisLink>("debris_" + block, *source, text.substr(point + 1),
+                                                    *simulation.find(name), block));
+      } catch (const Error& problem) {
+        diagnostics.error(own.where("from_elements"), problem.what());
+      }
+    }
+  }
+}
+
 std::vector<std::string> shown_fields(Component& component) {
   std::vector<std::string> names;
   for (const ExportPort& port : component.exports())
@@ -336,6 +375,7 @@ BuiltScene build_simulation(const Communicator& comm, Log& log, const LoadedScen
   distribute_to(comm, meshes, planned, *built.simulation);
   add_contact(comm, scene, *built.simulation, diagnostics);
   add_transfers(scene, *built.simulation, diagnostics);
+  add_debris_links(scene, *built.simulation, diagnostics);
   built.output = read_output(scene, *built.simulation, diagnostics);
   diagnostics.throw_if_any();
   built.warnings = diagnostics.warnings();

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "apps/tenon/scene_particles.hpp"
 #include "framework/mesh/generators.hpp"
 #include "framework/mesh/mesh.hpp"
 #include "framework/mesh/renumber.hpp"
@@ -150,7 +151,8 @@ MeshData read_file(const Value& v, const std::string& folder) {
 }
 
 /// What is to be done on rank 0, decided on every rank alike so that complaints are the same everywhere.
-std::function<MeshData()> recipe(const Value& v, const std::string& folder, scene::Diagnostics& diagnostics) {
+std::function<MeshData()> recipe(const Value& v, const std::string& folder, std::span<const SceneMesh> earlier,
+                                 scene::Diagnostics& diagnostics) {
   const std::string& type = v.text("type");
   if (type == "file") return [v, folder] { return read_file(v, folder); };
   if (type == "box") return [s = box(v, diagnostics)] { return generate(s); };
@@ -165,6 +167,7 @@ std::function<MeshData()> recipe(const Value& v, const std::string& folder, scen
     s.tetrahedra = v.text("element") == "tet4";
     return [s] { return generate(s); };
   }
+  if (type == "particles") return particle_recipe(v, folder, earlier, diagnostics);
   if (type == "annulus") return [s = annulus(v, diagnostics)] { return generate(s); };
   PlateShape s;
   s.length_x = v.real("length_x"), s.length_y = v.real("length_y");
@@ -185,10 +188,15 @@ Numbering numbering_of(const Value& v) {
 }  // namespace
 
 std::vector<std::pair<std::string, scene::Schema>> mesh_variants() {
-  std::vector<std::pair<std::string, scene::Schema>> variants{
-      {"file", file_schema()},     {"box", box_schema()},         {"cylinder", cylinder_schema()},
-      {"sphere", sphere_schema()}, {"annulus", annulus_schema()}, {"plate", plate_schema()}};
-  for (auto& [name, schema] : variants)
+  std::vector<std::pair<std::string, scene::Schema>> variants{{"file", file_schema()},
+                                                              {"box", box_schema()},
+                                                              {"cylinder", cylinder_schema()},
+                                                              {"sphere", sphere_schema()},
+                                                              {"annulus", annulus_schema()},
+                                                              {"plate", plate_schema()},
+                                                              {"particles", particle_mesh_schema()}};
+  for (auto& [name, schema] : variants) {
+    if (name == "particles") continue;
     schema.choice(
         "numbering", {"automatic", "file", "hilbert", "shuffled"},
         "Order of nodes and elements in memory: `automatic` puts them along a Hilbert curve where the file's order "
@@ -196,20 +204,24 @@ std::vector<std::pair<std::string, scene::Schema>> mesh_variants() {
         "slow the run down, `hilbert` always, `file` never; `shuffled` makes a poor order, to try what that costs. "
         "Messages and output keep the file's numbers.",
         "automatic");
+  }
   return variants;
 }
 
 SceneMesh make_mesh(const Communicator& comm, const std::string& name, const scene::Value& block,
-                    const std::string& folder, scene::Diagnostics& diagnostics) {
-  SceneMesh mesh{name, {}, {}, {}};
+                    const std::string& folder, std::span<const SceneMesh> earlier, scene::Diagnostics& diagnostics) {
+  SceneMesh mesh;
+  mesh.name = name;
+  if (block.text("type") == "particles") mesh.dimension = static_cast<int>(block.integer("dimension"));
   const std::size_t before = diagnostics.errors().size();
-  const std::function<MeshData()> make = recipe(block, folder, diagnostics);
+  const std::function<MeshData()> make = recipe(block, folder, earlier, diagnostics);
   if (diagnostics.errors().size() > before) return mesh;
   comm.vote_on_root([&] {
     mesh.data = make();
     check(mesh.data);
     add_derived_sets(mesh.data);
-    mesh.numbering = described(renumber(mesh.data, numbering_of(block)));
+    // Particles are put in order as they move; those of elements stand in the order of these.
+    if (block.text("type") != "particles") mesh.numbering = described(renumber(mesh.data, numbering_of(block)));
     mesh.summary = summarise(mesh.data);
   });
   mesh.summary = broadcast_summary(comm, mesh.summary);

@@ -2,6 +2,7 @@
 // Meshes of a scene: files and generated shapes.
 #pragma once
 
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,13 +21,14 @@ struct SceneMesh {
   std::string name;
   MeshData data;
   MeshSummary summary;
+  int dimension = 3;      ///< of the volumes of particles
   std::string numbering;  ///< what was done to the order of nodes and elements, for the log
 };
 
 /// Collective. Reads or generates on rank 0, checks the elements. Paths are relative to the scene's folder. Complaints
 /// about the block (counts that are no whole numbers ...) go to `diagnostics`; throws Error(file) or Error(geometry)
-/// together.
+/// together. `earlier`: meshes that this one may be made of.
 SceneMesh make_mesh(const Communicator& comm, const std::string& name, const scene::Value& block,
-                    const std::string& folder, scene::Diagnostics& diagnostics);
+                    const std::string& folder, std::span<const SceneMesh> earlier, scene::Diagnostics& diagnostics);
 
 }  // namespace tenon

@@ -7,6 +7,7 @@
 #include "components/contact/scene_block.hpp"
 #include "components/materials/read_material.hpp"
 #include "components/mechanics/scene_block.hpp"
+#include "components/sph/scene_block.hpp"
 #include "components/thermal/scene_block.hpp"
 
 namespace tenon {
@@ -114,7 +115,7 @@ Schema scene_schema() {
       .required();
   s.named("materials", material_schema(), "Materials by name.").required();
   s.variants("components", scene::Key::Type::named,
-             {{"explicit_mechanics", mechanics_schema()}, {"heat_conduction", thermal_schema()}},
+             {{"explicit_mechanics", mechanics_schema()}, {"sph", sph_schema()}, {"heat_conduction", thermal_schema()}},
              "Physics components by name. Each has a mesh, a decomposition and a time step of its own.")
       .required();
   s.object("contact", contact_schema(), "Contact between and within bodies.");

@@ -169,6 +169,10 @@ void Contact::limit_removal(Constraint& q, double dt) const {
 bool Contact::solve(double time, double dt, double kick, bool last) {
   for (Constraint& q : constraints_) {
     const PairMemory& memory = set_.pairs()[static_cast<std::size_t>(q.pair)].memory;
+    if (q.tied) {
+      q.impulse = kick * memory.force;
+      continue;
+    }
     const double along = std::max(0.0, dot(memory.force, q.normal));
     q.impulse = (kick * along) * q.normal;
     limit_removal(q, dt);
@@ -210,7 +214,7 @@ void Contact::release() {
   for (std::size_t k = 0; k < constraints_.size(); ++k) {
     const Constraint& q = constraints_[k];
     const PairMemory& memory = set_.pairs()[static_cast<std::size_t>(q.pair)].memory;
-    if (!(memory.energy > 0) || dot(q.impulse, q.normal) > 0) continue;
+    if (q.tied || !(memory.energy > 0) || dot(q.impulse, q.normal) > 0) continue;
     const Vec3 former = relative_velocity(q, former_, former_bodies_, q.former_surface_velocity);
     const Vec3 free = relative_velocity(q, predicted_, bodies_, q.surface_velocity);
     released_[k] = {memory.energy, dot(former, q.normal), dot(free, q.normal)};
@@ -243,19 +247,20 @@ void Contact::book(double dt, double kick) {
     const Vec3 mean = 0.5 * (before + (is_released ? after + by_others : solved));
     const double pressed = dot(q.impulse, q.normal);
     const Vec3 across = q.impulse - pressed * q.normal;
-    const double normal_work = pressed * dot(q.normal, mean), friction = -dot(across, mean);
+    const double friction = q.tied ? 0.0 : -dot(across, mean);
+    const double normal_work = q.tied ? dot(q.impulse, mean) : pressed * dot(q.normal, mean);
     const double stored = memory.energy;
     memory.energy = is_released ? 0.0 : std::max(0.0, stored - normal_work);
     memory.force = is_released ? Vec3{} : (1 / kick) * q.impulse;
     const Vec3 way = memory.slip + dt * after;
-    memory.slip = q.sticks && pressed > 0 ? way - dot(way, q.normal) * q.normal : Vec3{};
+    memory.slip = q.sticks && (pressed > 0 || q.tied) ? way - dot(way, q.normal) * q.normal : Vec3{};
     slid_[k] = pressed > 0 ? dt * (after - dot(after, q.normal) * q.normal) : Vec3{};
     heat_[k] = friction;
     if (!pair.primary) continue;
     dissipated_.add(-normal_work - (memory.energy - stored));
     friction_.add(friction);
     rigid_work_.add(dot(q.impulse, q.surface_velocity));
-    active_ += pressed > 0 ? 1 : 0;
+    active_ += pressed > 0 || q.tied ? 1 : 0;
     const std::int32_t low = std::min(pair.first_surface, pair.second_surface),
                        high = std::max(pair.first_surface, pair.second_surface);
     for (PairTotals& total : totals_) {

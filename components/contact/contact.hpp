@@ -141,7 +141,7 @@ class Contact final : public Interaction {
 
   /// What holds between two surfaces (blocks first, then rigid ones), by first * surfaces + second.
   struct Rule {
-    bool ignore = false;
+    bool ignore = false, tied = false;
     CoulombFriction friction;
   };
   std::int32_t surface_count_ = 0;

@@ -262,6 +262,9 @@ void Contact::add_constraint(std::size_t q, const Touch* face, const EdgeTouch* 
   const WorkingPair& pair = set_.pairs()[q];
   const double gap = face ? face->gap : edges ? edges->gap : rigid->gap;
   const double end_gap = face ? face->end_gap : edges ? edges->end_gap : rigid->end_gap;
+  const Rule& rule = rules_[static_cast<std::size_t>(pair.first_surface) * static_cast<std::size_t>(surface_count_) +
+                            static_cast<std::size_t>(pair.second_surface)];
+  if (rule.tied && edges) return;                                                         // nodes hold
   if (again_ ? end_gap > -negligible * pair.margin : end_gap > 0 && !remembers_) return;  // near, no more
   Constraint c;
   c.pair = static_cast<std::int32_t>(q), c.nodes = pair.nodes, c.node = pair.node;
@@ -279,12 +282,11 @@ void Contact::add_constraint(std::size_t q, const Touch* face, const EdgeTouch* 
   }
   if (!rigid) balance_moments(c, state_, support);
   c.target = gap >= 0 ? -gap / dt : -removal_rate * gap / dt;
-  const CoulombFriction& friction =
-      rules_[static_cast<std::size_t>(pair.first_surface) * static_cast<std::size_t>(surface_count_) +
-             static_cast<std::size_t>(pair.second_surface)]
-          .friction;
-  c.static_coefficient = friction.static_coefficient, c.kinetic_coefficient = friction.kinetic_coefficient;
-  if (c.static_coefficient > 0) c.tangent_target = (-return_rate / dt) * tangential(pair.memory.slip, c.normal);
+  c.static_coefficient = rule.friction.static_coefficient, c.kinetic_coefficient = rule.friction.kinetic_coefficient;
+  c.tied = rule.tied && (remembers_ || gap <= 0);
+  if (c.tied) c.target = -return_rate * gap / dt;
+  if (c.static_coefficient > 0 || c.tied)
+    c.tangent_target = (-return_rate / dt) * tangential(pair.memory.slip, c.normal);
   constraint_of_pair_[q] = static_cast<std::int32_t>(constraints_.size());
   constraints_.push_back(c);
 }

@@ -24,6 +24,7 @@ struct ContactPair {
   std::string first, second;  ///< may be the same: self contact
   bool ignore = false;
   std::optional<CoulombFriction> friction;
+  bool tied = false;  ///< what touches holds on for good: no gap opens again, nothing slides
 };
 
 /// A surface of simple shape that does not deform: it moves as told, or freely with a mass.

@@ -75,7 +75,7 @@ void Contact::read_pairs() {
                                                "give each a name of its own",
                                                name(), surface_name(a)));
   const auto count = static_cast<std::size_t>(surface_count_);
-  rules_.assign(count * count, {false, options_.friction});
+  rules_.assign(count * count, {false, false, options_.friction});
   const auto total = [&](std::int32_t a, std::int32_t b) {
     const auto same = [&](const PairTotals& t) { return t.first == a && t.second == b; };
     if (std::ranges::none_of(totals_, same)) totals_.push_back({a, b, {}, {}, {}});
@@ -84,7 +84,7 @@ void Contact::read_pairs() {
     const std::int32_t a = find_surface(pair.first), b = find_surface(pair.second);
     for (const auto& [i, k] : {std::pair(a, b), std::pair(b, a)}) {
       Rule& rule = rules_[static_cast<std::size_t>(i) * count + static_cast<std::size_t>(k)];
-      rule.ignore = pair.ignore;
+      rule.ignore = pair.ignore, rule.tied = pair.tied;
       if (pair.friction) rule.friction = *pair.friction;
     }
     if (!pair.ignore) total(std::min(a, b), std::max(a, b));

@@ -46,8 +46,9 @@ double coefficient(const Constraint& q, std::size_t i) {
 
 /// The impulse in Coulomb's cone nearest to what the gradient step asks for.
 Vec3 project(const Constraint& q, const Vec3& wanted, bool& sticks) {
+  sticks = q.tied;
+  if (q.tied) return wanted;
   const double n = dot(wanted, q.normal);
-  sticks = false;
   if (!(n > 0)) return {};
   const Vec3 normal = n * q.normal;
   if (q.static_coefficient == 0) {
@@ -266,7 +267,7 @@ Enforcement::Change Enforcement::iterate(std::span<Constraint> constraints, std:
       plain = plain - (body.state.velocity + by_component(body.state.inverse_mass, body.impulse.linear));
     }
     Vec3 residual = (dot(plain, q.normal) - q.target) * q.normal;
-    if (q.static_coefficient > 0) {
+    if (q.static_coefficient > 0 || q.tied) {
       Vec3 u = plain;
       if (q.couple) {
         Vec3 turning{};

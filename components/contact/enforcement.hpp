@@ -39,6 +39,7 @@ struct Constraint {
   double target = 0;      ///< m/s
   Vec3 tangent_target{};  ///< m/s
   double static_coefficient = 0, kinetic_coefficient = 0;
+  bool tied = false;  ///< holds both ways, and along the surface
   bool couple = false;
   std::array<double, 9> turn{};  ///< rows
   std::array<Vec3, 5> arm{};     ///< m

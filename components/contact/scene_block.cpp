@@ -23,6 +23,12 @@ Schema pair_schema() {
   s.text("first", "A block, or a rigid surface.").required();
   s.text("second", "Another one, or the same: contact of a block with itself.").required();
   s.flag("ignore", "They pass through each other.", "false");
+  s.flag(
+      "tied",
+      "What touches holds on for good, as if glued: particles tied to a mesh, or two meshes. What is to be tied from "
+      "the start on touches or overlaps in the undeformed bodies (`initial_overlaps: keep`).",
+      "false");
+  s.at_most_one({"friction", "tied"});
   add_friction(s, "");
   return s;
 }
@@ -136,6 +142,7 @@ ContactOptions read_contact(const Value& block, Diagnostics& diagnostics) {
   for (const Value& item : block.items("pairs")) {
     ContactPair pair;
     pair.first = item.text("first"), pair.second = item.text("second"), pair.ignore = item.flag("ignore");
+    pair.tied = item.flag("tied");
     if (item.has("friction") || item.has("static_friction"))
       pair.friction = read_friction(item, options.friction, diagnostics);
     options.pairs.push_back(pair);

@@ -29,6 +29,7 @@ Schema material_schema() {
   add_whole_laws(schema);
   add_equation_of_state(schema);
   add_failure(schema);
+  schema.quantity("viscosity", "Pa s", "Dynamic viscosity of a fluid; for particles.", "", Range::not_negative());
   schema.object("thermal", thermal_properties_schema(),
                 "Thermal properties; needed by conduction, plastic heat and expansion.");
   return schema;
@@ -46,6 +47,7 @@ MaterialDescription read_material(const std::string& name, const scene::Value& v
   material.whole_law = read_whole_law(value, material.elastic, diagnostics);
   material.equation_of_state = read_equation_of_state(value, material.density, diagnostics);
   material.failure = read_failure(value, diagnostics);
+  if (value.has("viscosity")) material.viscosity = value.real("viscosity");
   const double expansion = value.has("thermal") ? value.child("thermal").real("expansion") : 0;
   if (expansion != 0 && (value.has("equation_of_state") || value.has("soil")))
     diagnostics.error(value.child("thermal").where("expansion"),

@@ -27,6 +27,7 @@ Mechanics::Mechanics(std::string name, std::shared_ptr<const Mesh> mesh, Mechani
 
 void Mechanics::initialize() {
   phases_ = {&phase("forces"), &phase("update"), &phase("halo"), &phase("reduce")};
+  if (loaded_ && mesh_->comm.any(any_gone())) drop_gone_masses();
   if (!loaded_) set_velocities();
   forget_steps();
   compute_forces(0, 0);
@@ -291,6 +292,7 @@ std::int64_t Mechanics::local_deaths() const {
 
 // Elements have died on some rank.
 void Mechanics::follow_deaths() {
+  ++death_events_;
   if (contact_) contact_->change_surface();
   if (!loose_ || options_.erosion.loose_nodes == ErosionOptions::LooseNodes::keep) return;
   loose_->remove(groups_, nodes_);

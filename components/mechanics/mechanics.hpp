@@ -20,6 +20,7 @@
 #include "components/mechanics/subcycling.hpp"
 #include "components/mechanics/ties.hpp"
 #include "framework/simulation/component.hpp"
+#include "framework/simulation/debris.hpp"
 
 namespace tenon {
 
@@ -33,7 +34,7 @@ namespace tenon {
 ///
 /// Energies: the work at each kick, dt f . (v- + v+)/2, is exactly the change of kinetic energy (of the half-step
 /// velocities). Internal energy is the work of all element forces less what hourglass control and viscosity took.
-class Mechanics final : public Component {
+class Mechanics final : public Component, public DebrisSource {
  public:
   /// Collective. Throws Error(usage) where options and mesh do not fit.
   Mechanics(std::string name, std::shared_ptr<const Mesh> mesh, MechanicsOptions options);
@@ -55,6 +56,10 @@ class Mechanics final : public Component {
   std::vector<ExportPort> exports() override;
   std::vector<ImportPort> imports() override;
   std::span<const Vec3> current_coordinates() const override { return nodes_.position(); }
+
+  void give_up(const std::string& block) override;
+  bool has_debris(const std::string& block) const override;
+  std::vector<Debris> take_debris(const std::string& block) override;
 
   void energies(std::vector<EnergyTerm>& terms) override;
   std::vector<HistoryValue> history_values() override;
@@ -102,6 +107,12 @@ class Mechanics final : public Component {
   std::int64_t local_deaths() const;
   void follow_deaths();
   void sum_removed();
+  bool any_gone() const;
+  void drop_gone_masses();
+  void invert_masses();
+  void save_departed(CheckpointWriter& file) const;
+  void load_departed(const CheckpointReader& file);
+  std::size_t giving_block(const std::string& block) const;
   void set_rigid_rates();
   void set_bound_rates();
   void refresh_ghosts();
@@ -158,6 +169,15 @@ class Mechanics final : public Component {
   std::array<double, 4> removed_{};       // of all ranks: mass, kg, and momentum, kg m/s
   std::unique_ptr<ContactSide> contact_;  // if asked for
   std::int64_t deaths_ = 0;               // of elements of this rank, as of the last step
+  std::int64_t death_events_ = 0;         // steps in which elements have died on any rank
+  /// Of each block: what has become particles. Elements as in its group.
+  struct GivenUp {
+    bool any = false;            // what fails is given up
+    std::int64_t followed = 0;   // events
+    std::vector<char> departed;  // 1: mass, momentum and energy have left
+    std::vector<double> energy;  // that energy, J
+  };
+  std::vector<GivenUp> given_up_;
 
   double previous_dt_ = 0;  // of the last half step
   double stable_step_ = 0;  // what time_step() says

@@ -101,6 +101,7 @@ void Mechanics::save(CheckpointWriter& file) {
       node_array("friction_heat", 1, [&](std::size_t n, std::size_t) { return fields->friction_heat[n]; });
     }
   }
+  save_departed(file);
   if (subcycling_) save_levels(file);
   for (std::size_t b = 0; b < mesh_->blocks.size(); ++b) {
     const ElementBlock& block = mesh_->blocks[b];
@@ -188,6 +189,7 @@ void Mechanics::load(const CheckpointReader& file) {
                                              "with the same",
                                              name(), subcycling));
   if (subcycling > 1) load_levels(file);
+  load_departed(file);
   for (std::size_t b = 0; b < mesh_->blocks.size(); ++b) {
     const ElementBlock& block = mesh_->blocks[b];
     chosen.clear();

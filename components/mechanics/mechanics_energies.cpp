@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Rows of the energy ledger.
+#include <algorithm>
+
 #include "components/mechanics/mechanics.hpp"
 
 namespace tenon {
@@ -25,6 +27,7 @@ void Mechanics::energies(std::vector<EnergyTerm>& terms) {
   EnergyTerm hourglass{"hourglass_energy", Role::stored, {}}, viscosity{"viscosity_energy", Role::stored, {}};
   EnergyTerm eroded{"eroded_energy", Role::stored, {}};
   EnergyTerm boundary{"boundary_work", Role::supplied, {}}, wall{"wall_work", Role::supplied, {}};
+  EnergyTerm debris{"given_to_particles", Role::supplied, {}};
   EnergyTerm plastic{"plastic_work", Role::memo, {}}, generated{"heat_generated", Role::memo, {}};
   for (const LocalIndex n : mesh_->owned_nodes) {
     const auto i = static_cast<std::size_t>(n);
@@ -45,7 +48,13 @@ void Mechanics::energies(std::vector<EnergyTerm>& terms) {
     hourglass.local.add(h), viscosity.local.add(v);
     internal.local.add(-h), internal.local.add(-v);
     if (!group.alive(e)) {
-      eroded.local.add(value_of(group.internal_energy, e)), internal.local.add(-value_of(group.internal_energy, e));
+      const bool gone = !given_up_.empty() && given_up_[group.block()].any &&
+                        given_up_[group.block()].departed[static_cast<std::size_t>(e)] != 0;
+      internal.local.add(-value_of(group.internal_energy, e));
+      if (gone)
+        debris.local.add(-given_up_[group.block()].energy[static_cast<std::size_t>(e)]);
+      else
+        eroded.local.add(value_of(group.internal_energy, e));
     }
     if (has_plasticity) plastic.local.add(value_of(group.plastic_work, e)), generated.local.add(heat(group, e));
   });
@@ -53,6 +62,8 @@ void Mechanics::energies(std::vector<EnergyTerm>& terms) {
   if (loose_)
     for (const LooseNodes::Removed& removed : loose_->removed()) eroded.local.add(removed.energy);
   if (can_fail) terms.push_back(std::move(eroded));
+  if (std::ranges::any_of(given_up_, [](const GivenUp& given) { return given.any; }))
+    terms.push_back(std::move(debris));
   if (conditions_.has_motions()) terms.push_back(std::move(boundary));
   if (conditions_.has_walls()) terms.push_back(std::move(wall));
   if (rigid_->has_prescribed()) {

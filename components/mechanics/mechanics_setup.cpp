@@ -51,6 +51,10 @@ void Mechanics::make_groups() {
 void Mechanics::sum_masses() {
   for (const auto& group : groups_)
     if (!group->rigid) group->add_masses({nodes_.mass, nodes_.inertia});
+  invert_masses();
+}
+
+void Mechanics::invert_masses() {
   const auto invert = [](const std::vector<double>& from, std::vector<double>& to) {
     for (std::size_t n = 0; n < from.size(); ++n) to[n] = from[n] > 0 ? 1 / from[n] : 0;
   };

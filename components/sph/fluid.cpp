@@ -54,6 +54,11 @@ class Fluid final : public Formulation {
     }
   }
 
+  double wake(std::size_t particle, double) override {
+    density_half_[particle] = p_.density[particle];
+    return 0;
+  }
+
   void settle(double kick) override {
     for (std::size_t i = 0; i < p_.owned(); ++i) density_half_[i] += kick * density_rate_[i];
     if (transport_) find_transport(kick);

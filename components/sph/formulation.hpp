@@ -50,6 +50,9 @@ class Formulation {
   /// Local. The state of the start, at owned particles that have a place, a mass, a body and a smoothing length:
   /// densities and what else it keeps. Masses may change. Not after a restart.
   virtual void start() = 0;
+  /// Local. As `start`, for one particle that comes in during the run, with `heat` (J) that was in it; all columns that
+  /// it has not are zero. Returns how much of the heat its own rows of the ledger hold from now on.
+  virtual double wake(std::size_t /*particle*/, double /*heat*/) { return 0; }
   /// Collective. Accelerations of owned particles at the present places; refreshes what it reads of ghosts. `dt` (s) is
   /// the length of the step that led here, 0 at the start; `kick` of the next kick is not known yet.
   virtual void compute(double time, double dt) = 0;

@@ -9,11 +9,23 @@ namespace tenon {
 ParticleContact::ParticleContact(const Parts& parts) : parts_(parts) {
   const auto nodes = static_cast<std::size_t>(parts_.mesh.nodes());
   surface_.assign(nodes, -1);
-  for (std::size_t b = 0; b < parts_.mesh.blocks.size(); ++b)
-    for (const LocalIndex n : parts_.mesh.blocks[b].connectivity)
-      if (!parts_.options.bodies[b].wall) surface_[static_cast<std::size_t>(n)] = static_cast<std::int32_t>(b);
+  find_surfaces();
   for (std::vector<double>* const array : {&inverse_mass_, &radius_, &work_}) array->resize(nodes);
   for (std::vector<Vec3>* const array : {&position_, &velocity_, &former_, &impulse_}) array->resize(nodes);
+}
+
+// Walls do not touch, nor does what has yet to come in.
+void ParticleContact::find_surfaces() {
+  const std::size_t owned = parts_.particles.owned();
+  const std::vector<double> bodies(parts_.particles.body.begin(),
+                                   parts_.particles.body.begin() + static_cast<std::ptrdiff_t>(owned));
+  std::vector<double> of_nodes(surface_.size(), -1);
+  parts_.home.to_nodes(parts_.decomposition.version(), bodies, of_nodes, 1);
+  for (const LocalIndex n : parts_.mesh.owned_nodes) {
+    const auto i = static_cast<std::size_t>(n);
+    const auto body = static_cast<std::int32_t>(of_nodes[i]);
+    surface_[i] = body >= 0 && !parts_.options.bodies[static_cast<std::size_t>(body)].wall ? body : -1;
+  }
 }
 
 std::vector<std::string> ParticleContact::surface_names() const {
@@ -51,6 +63,7 @@ void ParticleContact::bring(const Column& column, std::vector<Vec3>& nodes) {
 }
 
 void ParticleContact::initialize() {
+  find_surfaces();
   const std::span<const double> mass(parts_.particles.mass.data(), parts_.particles.owned());
   parts_.home.to_nodes(parts_.decomposition.version(), mass, inverse_mass_, 1);
   for (const LocalIndex n : parts_.mesh.owned_nodes) {

@@ -35,7 +35,7 @@ class ParticleContact final : public ContactParty {
   void contact_faces(std::vector<ContactFace>& faces) const override { faces.clear(); }
   void contact_particles(std::vector<ContactParticle>& particles) const override;
   double effusivity(std::int32_t surface) const override;
-  std::int64_t surface_version() const override { return 0; }
+  std::int64_t surface_version() const override { return version_; }
   void watch(std::span<const LocalIndex> nodes) override;
   std::span<const Vec3> contact_positions() const override { return position_; }
   std::span<const Vec3> contact_velocities() const override { return velocity_; }
@@ -50,6 +50,11 @@ class ParticleContact final : public ContactParty {
 
   /// Collective. Masses, radii and places at the start of a run.
   void initialize();
+  /// Collective. After particles came in.
+  void renew() {
+    initialize();
+    ++version_;
+  }
   /// Collective, after the kick.
   void begin(double kick);
   /// Collective, before the drift.
@@ -59,16 +64,18 @@ class ParticleContact final : public ContactParty {
   std::int64_t memory() const;
 
  private:
+  void find_surfaces();
   void bring(const Column& column, std::vector<Vec3>& nodes);
 
   Parts parts_;
-  std::vector<std::int32_t> surface_;  // of nodes; -1: a wall, which does not touch
+  std::vector<std::int32_t> surface_;  // of nodes; -1: what does not touch
   std::vector<double> inverse_mass_, radius_, work_;
   std::vector<Vec3> position_, velocity_, former_, impulse_;
   std::vector<LocalIndex> watched_;
   std::vector<Vec3> watched_former_;
   std::unique_ptr<ContactFields> fields_;
   double kick_ = 0;
+  std::int64_t version_ = 0;
   bool pushed_ = false;
 };
 

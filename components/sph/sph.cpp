@@ -45,6 +45,12 @@ Sph::Sph(std::string name, std::shared_ptr<const Mesh> mesh, SphOptions options)
   for (const SphBody& body : options_.bodies) has_walls_ = has_walls_ || body.wall;
   if (has_gravity_) gravity_work_ = &particles_.add("gravity_work", ColumnKind::scalar, 1, true);
   if (has_walls_) boundary_work_ = &particles_.add("boundary_work", ColumnKind::scalar, 1, true);
+  if (std::ranges::any_of(options_.bodies, [](const SphBody& body) { return body.inflow.has_value(); }))
+    inflow_energy_ = &particles_.add("inflow_energy", ColumnKind::scalar, 1, true);
+  if (std::ranges::any_of(options_.bodies, &SphBody::waits)) {
+    debris_heat_ = &particles_.add("debris_energy", ColumnKind::scalar, 1, true);
+    debris_work_ = &particles_.add("taken_from_elements", ColumnKind::scalar, 1, true);
+  }
   place_particles();
 }
 
@@ -64,26 +70,32 @@ void Sph::refuse_misfits() const {
 
 // Particles start on the rank where their node is.
 void Sph::place_particles() {
-  const std::size_t owned = mesh_->owned_nodes.size();
-  particles_.resize(owned, 0);
-  std::vector<std::int32_t> body(static_cast<std::size_t>(mesh_->nodes()), 0);
+  node_body_.assign(static_cast<std::size_t>(mesh_->nodes()), 0);
   for (std::size_t b = 0; b < mesh_->blocks.size(); ++b)
     for (const LocalIndex n : mesh_->blocks[b].connectivity)
-      body[static_cast<std::size_t>(n)] = static_cast<std::int32_t>(b);
-  for (std::size_t i = 0; i < owned; ++i) {
-    const auto n = static_cast<std::size_t>(mesh_->owned_nodes[i]);
-    particles_.ids[i] = mesh_->node_ids[n];
-    particles_.body[i] = body[n];
-    particles_.home_rank[i] = mesh_->comm.rank();
-    particles_.home_node[i] = mesh_->owned_nodes[i];
-    const SphBody& of = options_.bodies[static_cast<std::size_t>(body[n])];
-    const Vec3 x = mesh_->coordinates[n];
-    particles_.position.set(i, options_.displaced ? x + options_.displaced(x) : x);
-    const double density = of.initial_density ? (*of.initial_density)(0, x) : of.material.density;
-    particles_.density[i] = density;
-    particles_.mass[i] = density * mesh_->volumes[n];
-    particles_.length[i] = options_.smoothing * std::pow(mesh_->volumes[n], 1.0 / options_.dimension);
+      node_body_[static_cast<std::size_t>(n)] = static_cast<std::int32_t>(b);
+  find_waiting();
+  particles_.resize(0, 0);
+  for (const LocalIndex n : mesh_->owned_nodes) {
+    if (!waits_.empty() && waits_[static_cast<std::size_t>(n)] != 0) continue;
+    particles_.resize(particles_.owned() + 1, 0);
+    place(particles_.owned() - 1, n);
   }
+}
+
+void Sph::place(std::size_t particle, LocalIndex node) {
+  const auto n = static_cast<std::size_t>(node);
+  particles_.ids[particle] = mesh_->node_ids[n];
+  particles_.body[particle] = node_body_[n], particles_.image[particle] = 0;
+  particles_.home_rank[particle] = mesh_->comm.rank();
+  particles_.home_node[particle] = node;
+  const SphBody& of = options_.bodies[static_cast<std::size_t>(node_body_[n])];
+  const Vec3 x = mesh_->coordinates[n];
+  particles_.position.set(particle, options_.displaced ? x + options_.displaced(x) : x);
+  const double density = of.initial_density ? (*of.initial_density)(0, x) : of.material.density;
+  particles_.density[particle] = density;
+  particles_.mass[particle] = density * mesh_->volumes[n];
+  particles_.length[particle] = options_.smoothing * std::pow(mesh_->volumes[n], 1.0 / options_.dimension);
 }
 
 void Sph::set_velocities() {
@@ -127,7 +139,7 @@ void Sph::end_step(double dt) {
   drift(dt);
   {
     const ScopedTimer timer(*phases_.order);
-    if (decomposition_->follow()) ++renewals_;
+    if (bring_in() || decomposition_->follow()) ++renewals_;
   }
   compute(dt);
   set_time(time() + dt);

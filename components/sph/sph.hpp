@@ -13,7 +13,9 @@
 #include "components/sph/particle_data.hpp"
 #include "components/sph/particle_decomposition.hpp"
 #include "components/sph/sph_options.hpp"
+#include "framework/comm/directory.hpp"
 #include "framework/simulation/component.hpp"
+#include "framework/simulation/debris.hpp"
 
 namespace tenon {
 
@@ -23,7 +25,7 @@ namespace tenon {
 ///
 /// Velocities live half a step behind places, as in Mechanics, so both can meet in contact. The work of each force at
 /// the kicks, m a . (v- + v+)/2, is exactly the change of the kinetic energy of the half-step velocities.
-class Sph final : public Component {
+class Sph final : public Component, public DebrisTarget {
  public:
   /// Collective. Throws Error(usage) where options and mesh do not fit.
   Sph(std::string name, std::shared_ptr<const Mesh> mesh, SphOptions options);
@@ -49,6 +51,9 @@ class Sph final : public Component {
   std::vector<SkipCount> skips() const override;
   std::vector<std::string> warnings() const override { return warnings_; }
 
+  GlobalId waiting(const std::string& block) const override;
+  void wake(const std::string& block, std::span<const Debris> debris) override;
+
   void save(CheckpointWriter& file) override;
   void load(const CheckpointReader& file) override;
 
@@ -63,6 +68,13 @@ class Sph final : public Component {
  private:
   void place_particles();
   void refuse_misfits() const;
+  bool bring_in();
+  void find_waiting();
+  void place(std::size_t particle, LocalIndex node);
+  std::int32_t body_of_block(const std::string& block) const;
+  void show_nothing_of_waiting(std::span<double> nodes, int components) const;
+  void save_waiting(CheckpointWriter& file);
+  void load_waiting(const CheckpointReader& file);
   void set_velocities();
   void kick(double dt);
   void settle();
@@ -85,7 +97,13 @@ class Sph final : public Component {
   std::vector<ForcePart> forces_;
   Column* gravity_work_ = nullptr;   // kept, J
   Column* boundary_work_ = nullptr;  // of walls, J
+  Column* inflow_energy_ = nullptr;  // of particles when they became free, J
+  Column* debris_heat_ = nullptr;    // of what elements became, beyond its motion, J
+  Column* debris_work_ = nullptr;    // what they brought in all, J
   bool has_gravity_ = false, has_walls_ = false;
+  std::vector<std::int32_t> node_body_;  // of all nodes of the mesh
+  std::vector<char> waits_;              // of all nodes: 1 while the particle is not there; empty if none ever waits
+  std::unique_ptr<Directory> homes_;     // of nodes, if some may wait
   mutable std::vector<Vec3> shown_places_;
   mutable std::int64_t shown_steps_ = -1;
 

@@ -26,12 +26,20 @@ enum class SphFormulation {
   total_lagrangian  ///< strength, on the neighbours of the start
 };
 
+/// Particles of a moving wall that have passed a plane are free, and belong to another body from then on.
+struct SphInflow {
+  Vec3 point{}, normal{1, 0, 0};  ///< of the plane: m, and where they go (of any length)
+  std::size_t into = 0;           ///< index of the body
+};
+
 /// Particles of one block of the mesh.
 struct SphBody {
   std::string name;
   MaterialDescription material;
   bool wall = false;                                     ///< does not feel forces: stands still, or moves as told
   std::array<TimeFunction, 3> velocity;                  ///< of a wall, m/s
+  std::optional<SphInflow> inflow;                       ///< of a wall that brings particles in
+  bool waits = false;                                    ///< not there until an element becomes it (DebrisTarget)
   std::array<SpaceTimeFunction, 3> initial_velocity;     ///< m/s, of the places at the start
   std::optional<SpaceTimeFunction> initial_pressure;     ///< Pa; the density follows from it, of gases the energy
   std::optional<SpaceTimeFunction> initial_density;      ///< kg/m^3; else that of the material

@@ -18,7 +18,10 @@ FieldDescription at_nodes(std::string name, int components, std::string unit) {
 
 std::span<const Vec3> Sph::current_coordinates() const {
   if (shown_steps_ == steps_ && !shown_places_.empty()) return shown_places_;
-  shown_places_.resize(static_cast<std::size_t>(mesh_->nodes()));
+  if (waits_.empty())
+    shown_places_.resize(static_cast<std::size_t>(mesh_->nodes()));
+  else
+    shown_places_ = mesh_->coordinates;
   shown_steps_ = steps_;
   home_->to_nodes(decomposition_->version(), std::span(particles_.position.values).first(3 * particles_.owned()),
                   {shown_places_.data()->data(), 3 * shown_places_.size()}, 3);
@@ -30,6 +33,7 @@ std::vector<ExportPort> Sph::exports() {
   const auto column = [&](FieldDescription field, const Column& values) {
     ports.push_back({std::move(field), [this, &values](std::span<double> out) {
                        const auto components = static_cast<std::size_t>(values.components);
+                       show_nothing_of_waiting(out, values.components);
                        home_->to_nodes(decomposition_->version(),
                                        std::span(values.values).first(components * particles_.owned()), out,
                                        values.components);
@@ -44,11 +48,16 @@ std::vector<ExportPort> Sph::exports() {
   column(at_nodes("density", 1, "kg/m^3"), particles_.density);
   column(at_nodes("smoothing_length", 1, "m"), particles_.length);
   column(at_nodes("particle_mass", 1, "kg"), particles_.mass);
+  if (!waits_.empty())
+    ports.push_back({at_nodes("active", 1, "1"), [this](std::span<double> out) {
+                       for (std::size_t n = 0; n < out.size(); ++n) out[n] = waits_[n] != 0 ? 0 : 1;
+                     }});
   for (const ParticleField& field : formulation_->fields())
     ports.push_back({field.field, [this, field](std::span<double> out) {
                        const auto components = static_cast<std::size_t>(field.field.components);
                        std::vector<double> values(components * particles_.owned());
                        for (std::size_t i = 0; i < particles_.owned(); ++i) field.read(i, &values[components * i]);
+                       show_nothing_of_waiting(out, field.field.components);
                        home_->to_nodes(decomposition_->version(), values, out, field.field.components);
                      }});
   if (contact_ && contact_->fields()) {
@@ -89,6 +98,11 @@ void Sph::energies(std::vector<EnergyTerm>& terms) {
   formulation_->energies(terms);
   if (has_gravity_) row("gravity_work", Role::supplied, *gravity_work_);
   if (has_walls_) row("boundary_work", Role::supplied, *boundary_work_);
+  if (inflow_energy_) row("inflow_energy", Role::supplied, *inflow_energy_);
+  if (debris_heat_) {
+    row("debris_energy", Role::stored, *debris_heat_);
+    row("taken_from_elements", Role::supplied, *debris_work_);
+  }
   if (contact_) terms.push_back({"contact_work", Role::supplied, contact_->contact_work()});
 }
 
@@ -97,6 +111,23 @@ std::vector<HistoryValue> Sph::history_values() {
   double fastest = 0;
   for (std::size_t i = 0; i < particles_.owned(); ++i) fastest = std::max(fastest, norm(particles_.velocity.vec(i)));
   values.push_back({"greatest_speed", HistoryValue::Reduce::max, fastest});
+  // Exact, so collective here; the same on every rank then.
+  std::array<ExactSum, 7> sums;
+  for (std::size_t i = 0; i < particles_.owned(); ++i) {
+    if (has_walls_ && is_wall(i)) continue;
+    const double m = particles_.mass[i];
+    sums[0].add(m);
+    for (std::size_t c = 0; c < 3; ++c)
+      sums[1 + c].add(m * particles_.position[3 * i + c]), sums[4 + c].add(m * particles_.velocity[3 * i + c]);
+  }
+  std::array<double, 7> totals{};
+  mesh_->comm.sum(sums, totals);
+  values.push_back({"mass", HistoryValue::Reduce::max, totals[0]});
+  for (std::size_t c = 0; c < static_cast<std::size_t>(options_.dimension); ++c) {
+    const std::string axis(1, "xyz"[c]);
+    values.push_back({"centre_" + axis, HistoryValue::Reduce::max, totals[0] > 0 ? totals[1 + c] / totals[0] : 0});
+    values.push_back({"momentum_" + axis, HistoryValue::Reduce::max, totals[4 + c]});
+  }
   return values;
 }
 

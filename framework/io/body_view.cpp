@@ -26,6 +26,7 @@ namespace tenon {
 namespace {
 
 constexpr double least_face_with_edges = 9;  // pixels across; below, edges would hide the colours
+constexpr double least_point = 2;            // pixels
 constexpr double bar_thickness = 0.028;      // of the height of the window
 
 }  // namespace
@@ -99,6 +100,11 @@ void BodyView::set_up_lights() {
 // Thin, half-transparent lines, where faces are large enough to be told apart.
 void BodyView::set_up_edges() {
   const double across = frames_.face_width() * pixels_per_metre_;
+  if (frames_.is_points()) {
+    body_->GetProperty()->SetRenderPointsAsSpheres(true);
+    body_->GetProperty()->SetPointSize(static_cast<float>(std::max(across, least_point)));
+    return;
+  }
   if (across < least_face_with_edges) return;
   mapper_->SetResolveCoincidentTopologyToPolygonOffset();
   mapper_->SetRelativeCoincidentTopologyPolygonOffsetParameters(4, 40);
@@ -231,6 +237,7 @@ void BodyView::show(std::size_t frame) {
   const vtkNew<vtkPolyData> painted;
   painted->SetPoints(surface->GetPoints());
   painted->SetPolys(surface->GetPolys());
+  if (frames_.is_points()) painted->SetVerts(surface->GetVerts());
   if (at_points != nullptr)
     painted->GetPointData()->SetScalars(shown);
   else
@@ -240,8 +247,8 @@ void BodyView::show(std::size_t frame) {
   normals->SetFeatureAngle(40);
   normals->SplittingOn();
   normals->ConsistencyOff();
-  normals->Update();
-  mapper_->SetInputData(normals->GetOutput());
+  if (!frames_.is_points()) normals->Update();
+  mapper_->SetInputData(frames_.is_points() ? painted.Get() : normals->GetOutput());
   edge_mapper_->SetInputData(painted);
   if (at_points != nullptr)
     mapper_->SetScalarModeToUsePointData();
@@ -249,7 +256,7 @@ void BodyView::show(std::size_t frame) {
     mapper_->SetScalarModeToUseCellData();
   const std::string unit = unit_.name == "1" ? "" : " " + unit_.name;
   const std::string extrema = fmt::format("min {:.4g}{}   max {:.4g}{}", low, unit, high, unit);
-  extrema_->SetInput(low <= high ? extrema.c_str() : "no faces");
+  extrema_->SetInput(low <= high ? extrema.c_str() : frames_.is_points() ? "no particles" : "no faces");
 }
 
 }  // namespace tenon

@@ -19,6 +19,7 @@
 #include <vtkExecutive.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
+#include <vtkPoints.h>
 #include <vtkStringArray.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLDataElement.h>
@@ -33,6 +34,7 @@ namespace tenon {
 namespace {
 
 constexpr const char* node_ids = "GlobalNodeId";
+constexpr const char* active = "active";  // of particles: 0 while they are not there yet
 constexpr std::size_t kept_bytes = std::size_t{1} << 30;
 
 /// Fields of a file that are for bookkeeping, not for pictures.
@@ -44,7 +46,8 @@ void select_only(vtkDataArraySelection& selection, const std::vector<std::string
   selection.DisableAllArrays();
   for (const std::string& name : names)
     if (selection.ArrayExists(name.c_str()) != 0) selection.EnableArray(name.c_str());
-  if (selection.ArrayExists(node_ids) != 0) selection.EnableArray(node_ids);
+  for (const char* const always : {node_ids, active})
+    if (selection.ArrayExists(always) != 0) selection.EnableArray(always);
 }
 
 /// With only these fields; with all if `names` is null.
@@ -150,6 +153,46 @@ double typical_width(vtkPolyData& surface) {
   return perimeter > 0 ? 4 * area / perimeter : 0;
 }
 
+/// Median distance of some particles from their nearest neighbours.
+double typical_distance(vtkPolyData& points) {
+  constexpr vtkIdType looked_at = 65;
+  const vtkIdType count = points.GetNumberOfPoints();
+  std::vector<double> distances;
+  for (vtkIdType k = 0; k < std::min(count, looked_at); ++k) {
+    const vtkIdType i = k * count / std::min(count, looked_at);
+    Vec3 x{}, other{};
+    points.GetPoint(i, x.data());
+    double nearest = std::numeric_limits<double>::infinity();
+    for (vtkIdType j = 0; j < count; ++j) {
+      points.GetPoint(j, other.data());
+      const double d = norm(other - x);
+      if (j != i && d > 0) nearest = std::min(nearest, d);
+    }
+    if (std::isfinite(nearest)) distances.push_back(nearest);
+  }
+  if (distances.empty()) return 0;
+  std::ranges::sort(distances);
+  return distances[distances.size() / 2];
+}
+
+/// Particles as points alone, without those that are not there yet.
+vtkSmartPointer<vtkPolyData> present_points(vtkPolyData& all) {
+  const vtkNew<vtkPolyData> present;
+  const vtkNew<vtkPoints> places;
+  const vtkNew<vtkCellArray> cells;
+  vtkDataArray* const there = all.GetPointData()->GetArray(active);
+  present->GetPointData()->CopyAllocate(all.GetPointData());
+  for (vtkIdType n = 0; n < all.GetNumberOfPoints(); ++n) {
+    if (there != nullptr && there->GetTuple1(n) == 0) continue;
+    const vtkIdType to = places->InsertNextPoint(all.GetPoint(n));
+    present->GetPointData()->CopyData(all.GetPointData(), n, to);
+    cells->InsertNextCell(1, &to);
+  }
+  present->SetPoints(places);
+  present->SetVerts(cells);
+  return present;
+}
+
 void widen(ValueRange& range, vtkDataArray* values) {
   for (vtkIdType i = 0; values != nullptr && i < values->GetNumberOfTuples(); ++i) {
     const double value = values->GetTuple1(i);
@@ -222,6 +265,7 @@ vtkSmartPointer<vtkUnstructuredGrid> RunFrames::body(std::size_t frame) const {
 vtkSmartPointer<vtkPolyData> RunFrames::load(std::size_t frame, Box* whole) const {
   const vtkSmartPointer<vtkUnstructuredGrid> grid = body(frame);
   vtkSmartPointer<vtkPolyData> surface = outside_of(grid);
+  if (surface->GetNumberOfPolys() == 0) surface = present_points(*surface);
   if (whole != nullptr) *whole = box_of(*surface);
   if (cut_) surface = cut_open(surface, section(grid, *cut_), *cut_);
   replace_by_magnitudes(*surface, wanted_);
@@ -233,7 +277,7 @@ void RunFrames::cut_if_hidden(const std::string& field) {
   const vtkSmartPointer<vtkUnstructuredGrid> grid = body(files_.size() - 1);
   const vtkSmartPointer<vtkPolyData> outside = outside_of(grid);
   const Box box = box_of(*outside);
-  if (box.empty()) return;
+  if (box.empty() || outside->GetNumberOfPolys() == 0) return;
   const Cut cut = middle_cut(box);
   const vtkSmartPointer<vtkPolyData> inside = section(grid, cut);
   replace_by_magnitudes(*outside, wanted_);
@@ -252,7 +296,11 @@ void RunFrames::scan(const std::vector<std::string>& fields) {
   for (std::size_t frame = 0; frame < files_.size(); ++frame) {
     Box whole;
     const vtkSmartPointer<vtkPolyData> surface = load(frame, &whole);
-    if (frame == 0) faces_ = surface->GetNumberOfCells(), face_width_ = typical_width(*surface);
+    if (faces_ == 0) {
+      faces_ = surface->GetNumberOfCells();
+      is_points_ = surface->GetNumberOfPolys() == 0;
+      face_width_ = is_points_ ? typical_distance(*surface) : typical_width(*surface);
+    }
     box_.add(whole);
     for (auto& [name, range] : ranges_) {
       widen(range, surface->GetPointData()->GetArray(name.c_str()));

@@ -52,6 +52,8 @@ class RunFrames {
   /// as thin.
   long long faces() const { return faces_; }
   double face_width() const { return face_width_; }
+  /// The body consists of particles; then the width is that between neighbours.
+  bool is_points() const { return is_points_; }
 
   /// The outside of the body in a frame, with the scanned fields; several components as their magnitude.
   vtkSmartPointer<vtkPolyData> surface(std::size_t frame) const;
@@ -72,6 +74,7 @@ class RunFrames {
   std::optional<Cut> cut_;
   long long faces_ = 0;
   double face_width_ = 0;
+  bool is_points_ = false;
   std::vector<vtkSmartPointer<vtkPolyData>> kept_;
 };
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Exodus II meshes, through the netCDF library that comes with VTK. Names of dimensions and variables: [SY94].
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "framework/mesh_files/netcdf_file.hpp"
 #include "framework/mesh_files/read_support.hpp"
@@ -113,9 +115,24 @@ class ExodusReader {
     }
     mesh_file::from_file_order(block.connectivity, exodus_node_order(*kind));
     block.labels.assign(static_cast<std::size_t>(size), 0);
+    if (*kind == ElementKind::particle && size > 0) read_volumes(block, number);
     first_elements_.push_back(read_elements_);
     read_elements_ += size;
     mesh_.blocks.push_back(std::move(block));
+  }
+
+  /// Attributes of spheres: the radius, and, where there are more, the volume.
+  void read_volumes(const BlockData& block, const std::string& number) {
+    const std::string variable = "attrib" + number;
+    const std::int64_t count = length("num_att_in_blk" + number), size = static_cast<std::int64_t>(block.size());
+    if (!file_.has(variable) || count < 1 || count > std::numeric_limits<std::int64_t>::max() / size) return;
+    const std::vector<double> values = file_.reals(variable, size * count);
+    mesh_.volumes.resize(static_cast<std::size_t>(nodes_));
+    for (std::size_t e = 0; e < block.size(); ++e) {
+      const double* const attributes = &values[e * static_cast<std::size_t>(count)];
+      mesh_.volumes[static_cast<std::size_t>(block.connectivity[e])] =
+          count > 1 ? attributes[1] : 4 * std::numbers::pi / 3 * std::pow(attributes[0], 3);
+    }
   }
 
   /// The ids that the mesh program showed to its user; without a map, the numbers 1, 2, 3 ...

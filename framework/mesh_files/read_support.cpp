@@ -104,12 +104,14 @@ void drop_unused_nodes(MeshData& mesh) {
     number[n] = static_cast<GlobalId>(kept);
     mesh.coordinates[kept] = mesh.coordinates[n];
     mesh.node_labels[kept] = mesh.node_labels[n];
+    if (!mesh.volumes.empty()) mesh.volumes[kept] = mesh.volumes[n];
     ++kept;
   }
   if (kept == count) return;
   mesh.warnings.push_back(std::to_string(count - kept) + " nodes belong to no element and are left out");
   mesh.coordinates.resize(kept);
   mesh.node_labels.resize(kept);
+  if (!mesh.volumes.empty()) mesh.volumes.resize(kept);
   const auto renumber = [&](GlobalId node) { return number[static_cast<std::size_t>(node)]; };
   for (BlockData& block : mesh.blocks)
     std::transform(block.connectivity.begin(), block.connectivity.end(), block.connectivity.begin(), renumber);

@@ -17,7 +17,8 @@ namespace tenon {
 MeshData read_mesh(const std::string& path);
 
 /// Unnamed blocks and sets become block_N, nodelist_N, surface_N, as ParaView names them; names in the file are kept.
-/// In a file of two dimensions z is 0. An HDF5 file is read in a forked child first, because that library can crash on
+/// In a file of two dimensions z is 0. Spheres are particles; their attributes, the radius or radius and volume, become
+/// MeshData::volumes. An HDF5 file is read in a forked child first, because that library can crash on
 /// corrupt files.
 MeshData read_exodus(const std::string& path);
 

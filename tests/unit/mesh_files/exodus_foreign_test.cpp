@@ -63,6 +63,34 @@ TEST_F(ForeignExodus, UnnamedBlocksAndSetsAreCalledAsInParaView) {
   EXPECT_EQ(mesh.blocks[0].labels, std::vector<std::int64_t>{1});
 }
 
+// Radius, or radius and volume, as programs for particles write them.
+TEST_F(ForeignExodus, SpheresHaveVolumes) {
+  const std::string file = path("spheres.g");
+  int computer = sizeof(double), stored = sizeof(double);
+  const int id = ex_create(file.c_str(), EX_CLOBBER, &computer, &stored);
+  ASSERT_GE(id, 0);
+  const double x[] = {0, 1, 2, 3}, y[] = {0, 0, 0, 0}, z[] = {5, 5, 5, 5};
+  EXPECT_GE(ex_put_init(id, "spheres", 3, 4, 3, 2, 0, 0), 0);
+  EXPECT_GE(ex_put_coord(id, x, y, z), 0);
+  const int one[] = {2}, two[] = {4, 1};  // node 3 is in no element
+  const double radius[] = {0.5}, both[] = {0.5, 1.25, 0.25, 0.75};
+  EXPECT_GE(ex_put_block(id, EX_ELEM_BLOCK, 1, "SPHERE", 1, 1, 0, 0, 1), 0);
+  EXPECT_GE(ex_put_conn(id, EX_ELEM_BLOCK, 1, one, nullptr, nullptr), 0);
+  EXPECT_GE(ex_put_attr(id, EX_ELEM_BLOCK, 1, radius), 0);
+  EXPECT_GE(ex_put_block(id, EX_ELEM_BLOCK, 2, "SPHERE", 2, 1, 0, 0, 2), 0);
+  EXPECT_GE(ex_put_conn(id, EX_ELEM_BLOCK, 2, two, nullptr, nullptr), 0);
+  EXPECT_GE(ex_put_attr(id, EX_ELEM_BLOCK, 2, both), 0);
+  EXPECT_GE(ex_close(id), 0);
+  const MeshData mesh = read_exodus(file);
+  ASSERT_EQ(mesh.coordinates.size(), 3u);
+  EXPECT_EQ(mesh.blocks[0].kind, ElementKind::particle);
+  EXPECT_EQ(mesh.node_labels, (std::vector<std::int64_t>{1, 2, 4}));
+  ASSERT_EQ(mesh.volumes.size(), 3u);
+  EXPECT_EQ(mesh.volumes[0], 0.75);
+  EXPECT_NEAR(mesh.volumes[1], 0.5235987755982988, 1e-15);
+  EXPECT_EQ(mesh.volumes[2], 1.25);
+}
+
 TEST_F(ForeignExodus, EveryFileFormatGivesTheSameMesh) {
   const std::vector<Block> blocks{{"HEX8", 8, first(8)}, {"TETRA", 4, {1, 2, 4, 5}}};
   const MeshData classic = read_exodus(make(blocks));
