@@ -12,6 +12,7 @@
 #include "components/sph/particle_contact.hpp"
 #include "components/sph/particle_data.hpp"
 #include "components/sph/particle_decomposition.hpp"
+#include "components/sph/particle_heat.hpp"
 #include "components/sph/sph_options.hpp"
 #include "framework/simulation/component.hpp"
 
@@ -41,7 +42,7 @@ class Sph final : public Component {
   ContactParty* contact_party() override;
 
   std::vector<ExportPort> exports() override;
-  std::vector<ImportPort> imports() override { return {}; }
+  std::vector<ImportPort> imports() override;
   std::span<const Vec3> current_coordinates() const override;
 
   void energies(std::vector<EnergyTerm>& terms) override;
@@ -68,6 +69,7 @@ class Sph final : public Component {
   void settle();
   void drift(double dt);
   void compute(double dt);
+  Formulation::Limit stable_limit() const;
   void choose_step();
   [[noreturn]] void fail(const std::string& what, std::size_t particle);
   std::string describe(std::size_t particle) const;
@@ -79,6 +81,7 @@ class Sph final : public Component {
   SphOptions options_;
   ParticleData particles_;
   std::unique_ptr<ParticleDecomposition> decomposition_;
+  std::unique_ptr<ParticleHeat> heat_;  // of solids, and where heat is conducted
   std::unique_ptr<Formulation> formulation_;
   std::unique_ptr<HomeExchange> home_;
   std::unique_ptr<ParticleContact> contact_;  // if asked for
