@@ -63,10 +63,11 @@ TotalLagrangian::TotalLagrangian(const SphContext& context)
       eqps_(scalar(rest_, "eqps", false)),
       damage_(scalar(rest_, "damage", false)),
       gone_(scalar(rest_, "gone", false)),
-      speed_(scalar(rest_, "reference_sound_speed", false)) {
+      speed_(scalar(rest_, "reference_sound_speed", false)),
+      secant_(scalar(rest_, "secant_modulus", false)),
+      strength_(scalar(rest_, "greatest_von_mises", true)) {
   materials_ = std::make_unique<SolidMaterials>(c_.name, c_.options, rest_);
-  for (const SphBody& body : c_.options.bodies)
-    young_.push_back(make_material_model(body.material)->elasticity().youngs_modulus);
+  for (const SphBody& body : c_.options.bodies) elasticity_.push_back(make_material_model(body.material)->elasticity());
 }
 
 void TotalLagrangian::start() {
@@ -179,7 +180,7 @@ void TotalLagrangian::compute(double, double dt) {
   sum_deformation();
   deform(dt);
   push_back_stress();
-  const std::array<Column*, 3> pushes{&push_, &deformation_, &sound_};
+  const std::array<Column*, 4> pushes{&push_, &deformation_, &sound_, &secant_};
   rest_order_->refresh(pushes);
   sum_forces();
   bring_back();
@@ -234,11 +235,24 @@ void TotalLagrangian::find_moments() {
   sum_moments();
 }
 
+// Young's modulus as a line from the undeformed state sees it, E q/(q + 3 G eqps) with the greatest von Mises stress q
+// so far: what resists modes without strain must give way where the material flows.
+double TotalLagrangian::secant_modulus(std::size_t i) {
+  const Elasticity& elastic = elasticity_[static_cast<std::size_t>(rest_.body[i])];
+  if (eqps_[i] == 0) return elastic.youngs_modulus;
+  const double* const s = materials_->stress.data() + 6 * i;
+  const double mean = (s[0] + s[1] + s[2]) / 3, x = s[0] - mean, y = s[1] - mean, z = s[2] - mean;
+  const double q = std::sqrt(1.5 * (x * x + y * y + z * z + 2 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5])));
+  strength_[i] = std::max(strength_[i], q);
+  return elastic.youngs_modulus * strength_[i] / (strength_[i] + 3 * elastic.shear_modulus() * eqps_[i]);
+}
+
 // P M^-1 with P = J sigma F^-T, and speeds of sound: of the present, and seen from the reference configuration.
 void TotalLagrangian::push_back_stress() {
   for (std::size_t i = 0; i < rest_.owned(); ++i) {
     gone_[i] = bonds_[i] == 0 ? 1 : 0;
     eqps_[i] = materials_->eqps(i), damage_[i] = materials_->damage(i);
+    secant_[i] = secant_modulus(i);
     sound_[i] = std::sqrt(std::max(materials_->modulus[i], 0.0) / rest_.density[i]);
     if (bonds_[i] == 0) {
       set_matrix(push_, i, 0.0 * identity3);

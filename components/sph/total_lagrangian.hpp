@@ -47,6 +47,7 @@ class TotalLagrangian final : public Formulation {
   void deform(double dt);
   void find_moments();
   void push_back_stress();
+  double secant_modulus(std::size_t i);
   template <typename K, int d>
   void moments();
   template <typename K, int d>
@@ -70,13 +71,14 @@ class TotalLagrangian final : public Formulation {
   // In the reference configuration.
   ParticleData rest_;
   Column &displacement_, &arrived_, &arrived_temperature_, &deformation_, &deformed_, &gradient_, &correction_, &bonds_,
-      &push_, &heating_, &a_, &a_hourglass_, &a_viscous_, &sound_, &rest_step_, &eqps_, &damage_, &gone_, &speed_;
+      &push_, &heating_, &a_, &a_hourglass_, &a_viscous_, &sound_, &rest_step_, &eqps_, &damage_, &gone_, &speed_,
+      &secant_, &strength_;
   std::unique_ptr<SolidMaterials> materials_;
   std::unique_ptr<ParticleDecomposition> rest_order_;
   std::unique_ptr<Directory> directory_;
   std::vector<std::size_t> begin_;
   std::vector<LocalIndex> neighbours_;  // in canonical order, padded to packs by the particle itself
-  std::vector<double> young_;           // of bodies, Pa
+  std::vector<Elasticity> elasticity_;  // of bodies
   ExchangePlan plan_;                   // forward: from there; reverse: to there
   std::int64_t version_ = -1;
   std::int64_t lost_ = 0;

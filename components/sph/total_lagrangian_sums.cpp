@@ -106,8 +106,7 @@ void TotalLagrangian::forces_of_pairs() {
   for (std::size_t i = 0; i < rest_.owned(); ++i) {
     const Vec3 u = displacement_.vec(i), v = rest_.velocity.vec(i);
     const Matrix3 Q = matrix_of(push_, i), F = matrix_of(deformation_, i);
-    const double E = young_[static_cast<std::size_t>(rest_.body[i])], c_i = sound_[i], mass = rest_.mass[i],
-                 rho = mass / std::max(bonds_[i], 1e-300);
+    const double E = secant_[i], c_i = sound_[i], mass = rest_.mass[i], rho = mass / std::max(bonds_[i], 1e-300);
     WidePack f[3]{}, g[3]{}, a[3]{}, heating{}, fastest{};
     for (std::size_t k = begin_[i]; bonds_[i] > 0 && k < begin_[i + 1]; k += wide_pack_width) {
       const LocalIndex* const js = &neighbours_[k];
@@ -117,7 +116,7 @@ void TotalLagrangian::forces_of_pairs() {
       for (int l = 0; l < wide_pack_width; ++l) {
         const auto j = static_cast<std::size_t>(js[l]);
         for (std::size_t n = 0; n < 9; ++n) Qj[n][l] = push_[9 * j + n], Fj[n][l] = deformation_[9 * j + n];
-        E_j[l] = young_[static_cast<std::size_t>(rest_.body[j])], c_j[l] = sound_[j], m_j[l] = rest_.mass[j];
+        E_j[l] = secant_[j], c_j[l] = sound_[j], m_j[l] = rest_.mass[j];
       }
       const WidePack slope = slope_of<K, d>(p), s = p.volume * slope;
       WidePack x[3], between{}, approach{};
