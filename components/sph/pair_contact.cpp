@@ -8,6 +8,12 @@
 
 namespace tenon {
 
+namespace {
+// Particles of one body can touch where it folds: if they were so many supports apart at the start. Nearer ones may be
+// near because the material between them is squeezed, to a tenth, say.
+constexpr double far = 4;
+}  // namespace
+
 PairContact::PairContact(const SphContext& context, const Column& origin)
     : c_(context),
       p_(context.particles),
@@ -24,7 +30,7 @@ PairContact::PairContact(const SphContext& context, const Column& origin)
   }
 }
 
-// Pairs of the lists that do not hold together; most particles have none.
+// Pairs of the lists that can touch; most particles have none.
 void PairContact::find_candidates(const Column* failed) {
   const double support = c_.options.kernel == SphKernelKind::quintic_spline ? 3 : 2;
   begin_.clear(), who_.clear(), candidates_.clear();
@@ -34,7 +40,7 @@ void PairContact::find_candidates(const Column* failed) {
       const auto j = static_cast<std::size_t>(candidate);
       if (bonded(p_.body[i], p_.body[j]) && !(failed && ((*failed)[i] != 0 || (*failed)[j] != 0))) {
         const Vec3 D = origin_.vec(i) - origin_.vec(j);
-        const double reach = support * std::max(p_.length[i], p_.length[j]);
+        const double reach = far * support * std::max(p_.length[i], p_.length[j]);
         if (dot(D, D) < reach * reach) continue;
       }
       candidates_.push_back(candidate);

@@ -9,7 +9,8 @@
 
 namespace tenon {
 
-/// Pairs that do not hold together, and are nearer than their spacing (and than at the start), repel along their line:
+/// Pairs of different bodies, of places of one body that were far apart, and of failed particles repel along their line
+/// when nearer than their spacing (and than at the start):
 ///   f = k (r0 - r),   k = stiffness (M_i + M_j)/2 s^(d-2)
 /// with the moduli M of the fastest waves and the mean spacing s. Linear and angular momentum are kept.
 class PairContact {

@@ -19,6 +19,7 @@ ParticleHeat::ParticleHeat(const std::string& component, const SphOptions& optio
       decomposition_(decomposition),
       temperature_(particles.add("temperature", ColumnKind::scalar, 1, true)),
       conductivity_(particles.add("conductivity", ColumnKind::scalar, 1, true)),
+      scale_(particles.add("conduction_scale", ColumnKind::scalar, 1, false)),
       flow_(particles.add("heat_flow", ColumnKind::scalar, 1, true)),
       heat_(particles.add("heat", ColumnKind::scalar, 1, true)),
       made_(particles.add("heat_generated", ColumnKind::scalar, 1, true)),
@@ -48,6 +49,7 @@ void ParticleHeat::start(double time) {
     temperature_[i] =
         body.initial_temperature ? (*body.initial_temperature)(time, particles_.position.vec(i)) : reference_[b];
     if (body.held_temperature) temperature_[i] = (*body.held_temperature)(time);
+    heat_[i] = capacity(i) * (temperature_[i] - reference_[b]);
   }
 }
 
@@ -93,29 +95,60 @@ void ParticleHeat::compute() {
     conductivity_[i] = thermal.conductivity_over_temperature ? (*thermal.conductivity_over_temperature)(temperature_[i])
                                                              : thermal.conductivity;
   }
-  const std::array<Column*, 4> columns{&particles_.position, &particles_.density, &temperature_, &conductivity_};
+  const std::array<Column*, 2> places{&particles_.position, &particles_.density};
+  decomposition_.refresh(places);
+  with_kernel(options_.kernel, options_.dimension, [&]<typename K, int d>() { scales<K, d>(); });
+  const std::array<Column*, 3> columns{&temperature_, &conductivity_, &scale_};
   decomposition_.refresh(columns);
   with_kernel(options_.kernel, options_.dimension, [&]<typename K, int d>() { sum<K, d>(); });
 }
 
+namespace {
+
+template <typename K, int d>
+WidePack slope_of(const PairHits& hits, std::size_t n) {
+  const WidePack h = load_wide(&hits.h[n]), q = square_root(load_wide(&hits.squared[n])) / h;
+  WidePack scale = load_wide(&hits.inside[n]) * (K::sigma(d) / (h * h));
+  for (int c = 0; c < d; ++c) scale = scale / h;
+  return scale * K::template slope<d>(q);
+}
+
+constexpr double least_scale = 0.3;  // of what has few neighbours, or none
+
+}  // namespace
+
+template <typename K, int d>
+void ParticleHeat::scales() {
+  for (std::size_t i = 0; i < particles_.owned(); ++i) {
+    hits_.find(i, decomposition_.lists().of(i), particles_.position.data(), particles_.length.data(), K::support);
+    WidePack sum{};
+    for (std::size_t n = 0; n < hits_.padded(); n += wide_pack_width) {
+      WidePack V;
+      for (int l = 0; l < wide_pack_width; ++l) {
+        const auto j = static_cast<std::size_t>(hits_.j[n + static_cast<std::size_t>(l)]);
+        V[l] = particles_.mass[j] / particles_.density[j];
+      }
+      sum -= V * load_wide(&hits_.squared[n]) * slope_of<K, d>(hits_, n);
+    }
+    scale_[i] = std::max(sum_of(sum) / d, least_scale);
+  }
+}
+
 template <typename K, int d>
 void ParticleHeat::sum() {
-  constexpr double sigma = K::sigma(d);
   for (std::size_t i = 0; i < particles_.owned(); ++i) {
     hits_.find(i, decomposition_.lists().of(i), particles_.position.data(), particles_.length.data(), K::support);
     const double T = temperature_[i], k_i = conductivity_[i], volume = particles_.mass[i] / particles_.density[i];
     WidePack flow{};
     for (std::size_t n = 0; n < hits_.padded(); n += wide_pack_width) {
-      WidePack V, T_j, k_j;
+      WidePack V, T_j, k_j, scale;
       for (int l = 0; l < wide_pack_width; ++l) {
         const auto j = static_cast<std::size_t>(hits_.j[n + static_cast<std::size_t>(l)]);
         V[l] = particles_.mass[j] / particles_.density[j], T_j[l] = temperature_[j], k_j[l] = conductivity_[j];
+        scale[l] = scale_[j];
       }
-      const WidePack h = load_wide(&hits_.h[n]), q = square_root(load_wide(&hits_.squared[n])) / h;
-      WidePack scale = sigma / (h * h);
-      for (int c = 0; c < d; ++c) scale = scale / h;
-      const WidePack mean = 4.0 * (k_i * k_j) / (k_i + k_j + 1e-300);
-      flow += load_wide(&hits_.inside[n]) * (volume * V) * mean * (T - T_j) * (scale * K::template slope<d>(q));
+      const WidePack mean = 8.0 * (k_i * k_j) / ((k_i + k_j + 1e-300) * (scale_[i] + scale));
+      flow += (volume * V) * mean * (T - T_j) * slope_of<K, d>(hits_, n);
     }
     flow_[i] = sum_of(flow);
   }

@@ -14,9 +14,10 @@
 namespace tenon {
 
 /// Conduction by pairs [Bro85, CM99]:
-///   m_i c_i dT_i/dt = sum_j V_i V_j 4 k_i k_j/(k_i + k_j) (T_i - T_j) (1/r dW/dr)
+///   m_i c_i dT_i/dt = sum_j V_i V_j 4 k_i k_j/(k_i + k_j) (T_i - T_j) (1/r dW/dr) / lambda_ij
 /// between all particles that are near each other now, so that what one loses the other gains; free surfaces are
-/// adiabatic. T(n+1) = T(n) + dt T'(n).
+/// adiabatic. lambda_ij is the mean of lambda_i = -1/d sum_j V_j r dW/dr, one for a continuum: without it the error of
+/// a lattice would not fall with its spacing. T(n+1) = T(n) + dt T'(n).
 class ParticleHeat {
  public:
   /// Throws Error(usage) where conduction is asked for and a material cannot conduct.
@@ -44,6 +45,8 @@ class ParticleHeat {
 
  private:
   template <typename K, int d>
+  void scales();
+  template <typename K, int d>
   void sum();
   double capacity(std::size_t i) const {
     return particles_.mass[i] * capacity_[static_cast<std::size_t>(particles_.body[i])];
@@ -52,7 +55,7 @@ class ParticleHeat {
   const SphOptions& options_;
   ParticleData& particles_;
   ParticleDecomposition& decomposition_;
-  Column &temperature_, &conductivity_, &flow_, &heat_, &made_, &received_;
+  Column &temperature_, &conductivity_, &scale_, &flow_, &heat_, &made_, &received_;
   std::vector<double> capacity_, reference_;  // of bodies: J/(kg K), K
   PairHits hits_;
 };

@@ -48,7 +48,7 @@ struct ArtificialViscosity {
 };
 
 /// Of solids: less than in gases, as stress keeps them together as well.
-inline constexpr double solid_alpha = 0.5, solid_beta = 1;
+inline constexpr double solid_alpha = 0.1, solid_beta = 0.5;
 
 struct FluidOptions {
   /// Artificial: by alpha, for stability alone; the others take the viscosity of the material, and resist all shear

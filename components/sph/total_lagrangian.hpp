@@ -54,6 +54,8 @@ class TotalLagrangian final : public Formulation {
   void deformation_gradients();
   template <typename K, int d>
   void forces_of_pairs();
+  void record_places();
+  void record_pushes();
   void sum_moments();
   void sum_deformation();
   void sum_forces();
@@ -78,6 +80,7 @@ class TotalLagrangian final : public Formulation {
   std::unique_ptr<Directory> directory_;
   std::vector<std::size_t> begin_;
   std::vector<LocalIndex> neighbours_;  // in canonical order, padded to packs by the particle itself
+  std::vector<double> records_;         // of all that stand there: what sums read of neighbours
   std::vector<Elasticity> elasticity_;  // of bodies
   ExchangePlan plan_;                   // forward: from there; reverse: to there
   std::int64_t version_ = -1;

@@ -10,45 +10,35 @@ namespace tenon {
 
 namespace {
 
+// One record a particle, so that eight neighbours are read by a few gathers:
+//   X, h | u, V | v, m | c, E, Q0, Q1 | Q2 .. Q5 | Q6 .. Q8, F0 | F1 .. F4 | F5 .. F8
+constexpr std::size_t record_size = 32, place = 0, moved = 4, moving = 8, stresses = 12;
+
 /// Eight neighbours of one particle in the reference configuration.
 struct RestPairs {
   WidePack D[3];        // X_i - X_j, m
   WidePack squared, h;  // m^2, m
-  WidePack volume;      // of j, m^3; 0 where it holds on to nothing
-};
+  WidePack u[3];        // u_j, m
+  WidePack volume;      // V_j, m^3; 0 where it holds on to nothing
 
-inline RestPairs rest_pairs(const ParticleData& rest, const Column& bonds, std::size_t i, const LocalIndex* js) {
-  RestPairs p;
-  const double* const X = rest.position.data();
-  for (int l = 0; l < wide_pack_width; ++l) {
-    const auto j = static_cast<std::size_t>(js[l]);
-    for (std::size_t c = 0; c < 3; ++c) p.D[c][l] = X[3 * i + c] - X[3 * j + c];
-    p.h[l] = 0.5 * (rest.length[i] + rest.length[j]);
-    p.volume[l] = bonds[j];
+  RestPairs(const double* records, std::size_t i, const LocalIndex* js) {
+    const double* const mine = records + record_size * i;
+    WidePack X[3];
+    gather(records + place, record_size, js, X[0], X[1], X[2], h);
+    gather(records + moved, record_size, js, u[0], u[1], u[2], volume);
+    for (int c = 0; c < 3; ++c) D[c] = mine[c] - X[c];
+    h = 0.5 * (mine[3] + h);
+    squared = D[0] * D[0] + D[1] * D[1] + D[2] * D[2];
   }
-  p.squared = p.D[0] * p.D[0] + p.D[1] * p.D[1] + p.D[2] * p.D[2];
-  return p;
-}
+};
 
 /// (1/r dW/dr): grad W = slope D.
 template <typename K, int d>
-inline WidePack slope_of(const RestPairs& p) {
+TENON_KERNEL WidePack slope_of(const RestPairs& p) {
   WidePack scale = K::sigma(d) / (p.h * p.h);
   for (int n = 0; n < d; ++n) scale = scale / p.h;
   return scale * K::template slope<d>(square_root(p.squared) / p.h);
 }
-
-/// Eight vectors of a column.
-struct WideVectors {
-  WidePack at[3];
-  WideVectors(const Column& column, const LocalIndex* js) {
-    const double* const v = column.data();
-    for (int l = 0; l < wide_pack_width; ++l) {
-      const auto j = static_cast<std::size_t>(js[l]);
-      for (std::size_t c = 0; c < 3; ++c) at[c][l] = v[3 * j + c];
-    }
-  }
-};
 
 }  // namespace
 
@@ -57,7 +47,7 @@ void TotalLagrangian::moments() {
   for (std::size_t i = 0; i < rest_.owned(); ++i) {
     WidePack sums[9]{};
     for (std::size_t k = begin_[i]; k < begin_[i + 1]; k += wide_pack_width) {
-      const RestPairs p = rest_pairs(rest_, bonds_, i, &neighbours_[k]);
+      const RestPairs p(records_.data(), i, &neighbours_[k]);
       const WidePack s = p.volume * slope_of<K, d>(p);
       for (int r = 0; r < d; ++r)
         for (int c = 0; c < d; ++c) sums[3 * r + c] -= s * (p.D[r] * p.D[c]);
@@ -79,12 +69,11 @@ void TotalLagrangian::deformation_gradients() {
     const Vec3 u = displacement_.vec(i);
     WidePack sums[9]{};
     for (std::size_t k = begin_[i]; k < begin_[i + 1]; k += wide_pack_width) {
-      const RestPairs p = rest_pairs(rest_, bonds_, i, &neighbours_[k]);
-      const WideVectors w(displacement_, &neighbours_[k]);
+      const RestPairs p(records_.data(), i, &neighbours_[k]);
       const WidePack s = p.volume * slope_of<K, d>(p);
       for (std::size_t r = 0; r < d; ++r) {
-        const WidePack moved = s * (w.at[r] - u[r]);
-        for (std::size_t c = 0; c < d; ++c) sums[3 * r + c] += moved * p.D[c];
+        const WidePack change = s * (p.u[r] - u[r]);
+        for (std::size_t c = 0; c < d; ++c) sums[3 * r + c] += change * p.D[c];
       }
     }
     Matrix3 sum{};
@@ -110,19 +99,20 @@ void TotalLagrangian::forces_of_pairs() {
     WidePack f[3]{}, g[3]{}, a[3]{}, heating{}, fastest{};
     for (std::size_t k = begin_[i]; bonds_[i] > 0 && k < begin_[i + 1]; k += wide_pack_width) {
       const LocalIndex* const js = &neighbours_[k];
-      const RestPairs p = rest_pairs(rest_, bonds_, i, js);
-      const WideVectors w(displacement_, js), vj(rest_.velocity, js);
-      WidePack Qj[9], Fj[9], E_j, c_j, m_j;
-      for (int l = 0; l < wide_pack_width; ++l) {
-        const auto j = static_cast<std::size_t>(js[l]);
-        for (std::size_t n = 0; n < 9; ++n) Qj[n][l] = push_[9 * j + n], Fj[n][l] = deformation_[9 * j + n];
-        E_j[l] = secant_[j], c_j[l] = sound_[j], m_j[l] = rest_.mass[j];
-      }
+      const RestPairs p(records_.data(), i, js);
+      const double* const records = records_.data();
+      WidePack vj[3], m_j, c_j, E_j, Qj[9], Fj[9];
+      gather(records + moving, record_size, js, vj[0], vj[1], vj[2], m_j);
+      gather(records + stresses, record_size, js, c_j, E_j, Qj[0], Qj[1]);
+      gather(records + stresses + 4, record_size, js, Qj[2], Qj[3], Qj[4], Qj[5]);
+      gather(records + stresses + 8, record_size, js, Qj[6], Qj[7], Qj[8], Fj[0]);
+      gather(records + stresses + 12, record_size, js, Fj[1], Fj[2], Fj[3], Fj[4]);
+      gather(records + stresses + 16, record_size, js, Fj[5], Fj[6], Fj[7], Fj[8]);
       const WidePack slope = slope_of<K, d>(p), s = p.volume * slope;
       WidePack x[3], between{}, approach{};
       for (std::size_t r = 0; r < d; ++r) {
-        x[r] = p.D[r] + (u[r] - w.at[r]);
-        between += x[r] * x[r], approach += x[r] * (v[r] - vj.at[r]);
+        x[r] = p.D[r] + (u[r] - p.u[r]);
+        between += x[r] * x[r], approach += x[r] * (v[r] - vj[r]);
         WidePack pushed{};
         for (std::size_t c = 0; c < d; ++c) pushed += (Q[3 * r + c] + Qj[3 * r + c]) * p.D[c];
         f[r] += s * pushed;
@@ -163,13 +153,37 @@ void TotalLagrangian::forces_of_pairs() {
   }
 }
 
+// What neighbours are asked for: places and volumes; then what moves them, and what they push with.
+void TotalLagrangian::record_places() {
+  records_.resize(record_size * rest_.size());
+  for (std::size_t i = 0; i < rest_.size(); ++i) {
+    double* const to = &records_[record_size * i];
+    for (std::size_t c = 0; c < 3; ++c) {
+      to[place + c] = rest_.position[3 * i + c], to[moved + c] = displacement_[3 * i + c];
+      to[moving + c] = rest_.velocity[3 * i + c];
+    }
+    to[place + 3] = rest_.length[i], to[moved + 3] = bonds_[i], to[moving + 3] = rest_.mass[i];
+  }
+}
+void TotalLagrangian::record_pushes() {
+  for (std::size_t i = 0; i < rest_.size(); ++i) {
+    double* const to = &records_[record_size * i + stresses];
+    to[0] = sound_[i], to[1] = secant_[i];
+    std::copy_n(push_.data() + 9 * i, 9, to + 2);
+    std::copy_n(deformation_.data() + 9 * i, 9, to + 11);
+  }
+}
+
 void TotalLagrangian::sum_moments() {
+  record_places();
   with_kernel(c_.options.kernel, c_.options.dimension, [&]<typename K, int d>() { moments<K, d>(); });
 }
 void TotalLagrangian::sum_deformation() {
+  record_places();
   with_kernel(c_.options.kernel, c_.options.dimension, [&]<typename K, int d>() { deformation_gradients<K, d>(); });
 }
 void TotalLagrangian::sum_forces() {
+  record_pushes();
   with_kernel(c_.options.kernel, c_.options.dimension, [&]<typename K, int d>() { forces_of_pairs<K, d>(); });
 }
 

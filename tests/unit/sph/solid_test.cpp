@@ -178,6 +178,45 @@ TEST_P(Solids, SameBitsThroughARestart) {
     EXPECT_EQ(through.row(row), again.row(row)) << row;
 }
 
+/// A bar that is pulled apart until particles fail.
+SphScene torn_bar(SphFormulation formulation, int dimension) {
+  SphScene scene;
+  ParticleBox box;
+  box.particles = {16, 5, dimension > 2 ? 4 : 1}, box.dimension = dimension;
+  box.low = {-0.08, 0, 0}, box.high = {0.08, 0.05, dimension > 2 ? 0.04 : 0};
+  scene.mesh = particle_bodies({{"bar", generate(box)}});
+  MaterialDescription brittle = metal();
+  FailureCriterion failure;
+  failure.plastic_strain = 0.05;
+  brittle.failure = failure;
+  scene.options.bodies = {body_of("bar", brittle)};
+  scene.options.dimension = dimension;
+  scene.options.formulation = formulation;
+  scene.options.initial_velocity_function = [](const Vec3& x) { return Vec3{x[0] < 0.011 ? -150.0 : 150.0, 0, 0}; };
+  return scene;
+}
+
+TEST_P(Solids, FailAndKeepMomentumAndEnergy) {
+  const auto [formulation, dimension] = GetParam();
+  const SphScene scene = torn_bar(formulation, dimension);
+  SphRun run(scene);
+  const double size = run.size_of_momentum();
+  const Vec3 before = run.momentum();
+  run.steps(120);
+  const std::vector<double> failed = run.gathered("failed"), x = run.gathered("position");
+  if (communicator().rank() == 0) {
+    EXPECT_GT(std::ranges::count(failed, 1.0), 0);
+    EXPECT_GT(std::ranges::count(failed, 0.0), static_cast<std::ptrdiff_t>(failed.size() / 2));
+  }
+  EXPECT_LE(norm(run.momentum() - before), 1e-12 * size);
+  EXPECT_LE(run.ledger_error(), 1e-11);
+  if (communicator().rank() == 0) {
+    SphRun alone(scene, Communicator::self());
+    alone.steps(120);
+    EXPECT_EQ(x, alone.gathered("position"));
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Sph, Solids,
                          ::testing::Values(std::pair{SphFormulation::solid, 2}, std::pair{SphFormulation::solid, 3},
                                            std::pair{SphFormulation::total_lagrangian, 2},

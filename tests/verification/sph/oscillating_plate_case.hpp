@@ -30,6 +30,7 @@ inline Swing swing(int across, double speed_factor, double periods,
   scene.options.bodies[1].wall = true;
   scene.options.dimension = 2;
   scene.options.formulation = SphFormulation::total_lagrangian;
+  scene.options.time_step.cfl = 0.5;
   const auto mode = [](double s) {
     return (std::cos(kL) + std::cosh(kL)) * (std::cosh(kL * s) - std::cos(kL * s)) +
            (std::sin(kL) - std::sinh(kL)) * (std::sinh(kL * s) - std::sin(kL * s));

@@ -18,6 +18,8 @@ inline SphScene rings(SphFormulation formulation, int rows) {
   scene.options.bodies = {body_of("left", rubber), body_of("right", rubber)};
   scene.options.dimension = 2;
   scene.options.formulation = formulation;
+  scene.options.time_step.cfl = 0.5;
+  scene.options.artificial_viscosity.alpha = scene.options.artificial_viscosity.beta = 0;
   scene.options.initial_velocity_function = [](const Vec3& x) {
     return Vec3{x[0] < 0 ? ring_speed : -ring_speed, 0, 0};
   };

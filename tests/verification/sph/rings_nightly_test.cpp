@@ -14,6 +14,7 @@ TEST(Rings, BounceAsFiniteElementsSay) {
   EXPECT_LT(r.restitution, 0.85);
   EXPECT_NEAR(r.last_contact - r.first_contact, 262.8e-6, 0.06 * 262.8e-6);
   EXPECT_NEAR(r.least_width, 49.5e-3, 0.04 * 49.5e-3);
+  EXPECT_LE(r.energy_loss, 0.05);
   EXPECT_LE(r.momentum, 1e-12);
   EXPECT_LE(r.ledger_error, 1e-11);
 }

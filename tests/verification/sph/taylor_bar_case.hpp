@@ -22,6 +22,7 @@ inline TaylorBar taylor_bar(SphFormulation formulation, int across,
   copper.plasticity = LinearHardeningParameters{400e6, 100e6, {}};
   scene.options.bodies = {body_of("bar", copper)};
   scene.options.formulation = formulation;
+  scene.options.time_step.cfl = 0.5;
   for (ParticleDomain::Axis& axis : scene.options.domain.axes) axis.low = 0;
   scene.options.initial_velocity_function = [](const Vec3&) { return Vec3{0, 0, -speed}; };
   scene.end = 80e-6;
