@@ -14,6 +14,8 @@
 
 namespace tenon {
 
+class ParticleHeat;
+
 /// What a formulation works on.
 struct SphContext {
   const Communicator& comm;
@@ -21,6 +23,7 @@ struct SphContext {
   const SphOptions& options;
   ParticleData& particles;
   ParticleDecomposition& decomposition;
+  ParticleHeat* heat = nullptr;  ///< temperatures; of solids always
 };
 
 /// A force per mass whose work has a row in the ledger: the work that it does at the kicks is taken from that row.

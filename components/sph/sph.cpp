@@ -38,7 +38,11 @@ Sph::Sph(std::string name, std::shared_ptr<const Mesh> mesh, SphOptions options)
   decomposition_ = std::make_unique<ParticleDecomposition>(
       mesh_->comm, this->name(), particles_, options_.domain,
       DecompositionOptions{support_of(options_.kernel), options_.skin, options_.always_search});
-  formulation_ = make_formulation({mesh_->comm, this->name(), options_, particles_, *decomposition_});
+  const bool solid =
+      options_.formulation == SphFormulation::solid || options_.formulation == SphFormulation::total_lagrangian;
+  if (solid || options_.heat_conduction)
+    heat_ = std::make_unique<ParticleHeat>(this->name(), options_, particles_, *decomposition_);
+  formulation_ = make_formulation({mesh_->comm, this->name(), options_, particles_, *decomposition_, heat_.get()});
   forces_ = formulation_->forces();
   home_ = std::make_unique<HomeExchange>(*mesh_, particles_, this->name());
   for (const TimeFunction& g : options_.gravity) has_gravity_ = has_gravity_ || !g.is_constant() || g(0) != 0;
@@ -115,6 +119,7 @@ void Sph::initialize() {
     decomposition_->arrange();
   } else {
     set_velocities();
+    if (heat_) heat_->start(time());
     formulation_->start();
     decomposition_->renew();
     compute(0);
@@ -200,11 +205,20 @@ void Sph::drift(double dt) {
 
 void Sph::compute(double dt) {
   const ScopedTimer timer(*phases_.forces);
+  if (heat_ && dt > 0) heat_->advance(time(), dt);
   formulation_->compute(time() + dt, dt);
+  if (heat_) heat_->compute();
+}
+
+Formulation::Limit Sph::stable_limit() const {
+  const Formulation::Limit waves = formulation_->stable_step();
+  if (!heat_) return waves;
+  const Formulation::Limit heat = heat_->stable_step();
+  return heat.dt < waves.dt ? heat : waves;
 }
 
 void Sph::choose_step() {
-  Formulation::Limit limit = formulation_->stable_step();
+  Formulation::Limit limit = stable_limit();
   std::size_t bad = particles_.owned();
   for (std::size_t i = 0; i < particles_.owned() && bad == particles_.owned(); ++i) {
     const Vec3 x = particles_.position.vec(i), a = particles_.acceleration.vec(i);
@@ -242,7 +256,7 @@ std::string Sph::describe(std::size_t particle) const {
 
 StepLimiter Sph::limiter() {
   if (options_.time_step.fixed) return {stable_step_, "time_step.fixed"};
-  const Formulation::Limit limit = formulation_->stable_step();
+  const Formulation::Limit limit = stable_limit();
   const double least = mesh_->comm.min(limit.dt);
   const bool mine = limit.dt == least && particles_.owned() > 0;
   const std::int64_t first =

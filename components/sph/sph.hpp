@@ -12,6 +12,7 @@
 #include "components/sph/particle_contact.hpp"
 #include "components/sph/particle_data.hpp"
 #include "components/sph/particle_decomposition.hpp"
+#include "components/sph/particle_heat.hpp"
 #include "components/sph/sph_options.hpp"
 #include "framework/comm/directory.hpp"
 #include "framework/simulation/component.hpp"
@@ -43,7 +44,7 @@ class Sph final : public Component, public DebrisTarget {
   ContactParty* contact_party() override;
 
   std::vector<ExportPort> exports() override;
-  std::vector<ImportPort> imports() override { return {}; }
+  std::vector<ImportPort> imports() override;
   std::span<const Vec3> current_coordinates() const override;
 
   void energies(std::vector<EnergyTerm>& terms) override;
@@ -80,6 +81,7 @@ class Sph final : public Component, public DebrisTarget {
   void settle();
   void drift(double dt);
   void compute(double dt);
+  Formulation::Limit stable_limit() const;
   void choose_step();
   [[noreturn]] void fail(const std::string& what, std::size_t particle);
   std::string describe(std::size_t particle) const;
@@ -91,6 +93,7 @@ class Sph final : public Component, public DebrisTarget {
   SphOptions options_;
   ParticleData particles_;
   std::unique_ptr<ParticleDecomposition> decomposition_;
+  std::unique_ptr<ParticleHeat> heat_;  // of solids, and where heat is conducted
   std::unique_ptr<Formulation> formulation_;
   std::unique_ptr<HomeExchange> home_;
   std::unique_ptr<ParticleContact> contact_;  // if asked for

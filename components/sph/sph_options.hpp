@@ -45,6 +45,8 @@ struct SphBody {
   std::optional<SpaceTimeFunction> initial_density;      ///< kg/m^3; else that of the material
   std::optional<SpaceTimeFunction> initial_energy;       ///< J/kg, of gases
   std::optional<SpaceTimeFunction> initial_temperature;  ///< K
+  std::optional<TimeFunction> held_temperature;          ///< K, whatever heat flows
+  std::string bond;  ///< of total Lagrangian bodies: those with the same name here hold together, as at a clamp
 };
 
 /// Artificial viscosity [Mon92]: alpha and beta with the signal speed, switched off where nothing is compressed.
@@ -52,6 +54,9 @@ struct ArtificialViscosity {
   enum class Switch { none, balsara, cullen_dehnen } limiter = Switch::none;
   std::optional<double> alpha, beta;  ///< else what suits the formulation
 };
+
+/// Of solids: less than in gases, as stress keeps them together as well.
+inline constexpr double solid_alpha = 0.1, solid_beta = 0.5;
 
 struct FluidOptions {
   /// Artificial: by alpha, for stability alone; the others take the viscosity of the material, and resist all shear
@@ -74,6 +79,12 @@ struct GasOptions {
   double greatest_smoothing = 4;  ///< over the greatest smoothing length of the start: where following rho ends
 };
 
+struct SolidOptions {
+  double hourglass = 10;         ///< of total Lagrangian bodies [Gan15]: resistance to modes without strain, 0: none
+  double contact_stiffness = 1;  ///< of total Lagrangian bodies, of their own stiffness: what keeps them apart
+  double artificial_stress = 0;  ///< of updated Lagrangian bodies [Mon00]: share of a tension that pairs do not feel
+};
+
 struct SphTimeStep {
   double cfl = 0.25;              ///< of smoothing length over signal speed
   std::optional<double> fixed;    ///< s
@@ -93,6 +104,8 @@ struct SphOptions {
   double artificial_conduction = 0;  ///< alpha_u of gases [Pri08]: heat across jumps of energy, 0 none, 1 full
   FluidOptions fluid;
   GasOptions gas;
+  SolidOptions solid;
+  bool heat_conduction = false;  ///< between particles whose materials have thermal properties
   SphTimeStep time_step;
   double skin = 0.1;  ///< of the support: how far lists reach beyond it
   bool always_search = false;

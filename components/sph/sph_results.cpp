@@ -60,6 +60,7 @@ std::vector<ExportPort> Sph::exports() {
                        show_nothing_of_waiting(out, field.field.components);
                        home_->to_nodes(decomposition_->version(), values, out, field.field.components);
                      }});
+  if (heat_) column(at_nodes("temperature", 1, "K"), heat_->temperature());
   if (contact_ && contact_->fields()) {
     ContactFields& fields = *contact_->fields();
     const auto vector = [&](std::string name, std::string unit, std::vector<Vec3>& values) {
@@ -80,6 +81,23 @@ std::vector<ExportPort> Sph::exports() {
   return ports;
 }
 
+// A temperature that comes replaces what was there, and the heat that it takes is counted; heat is added.
+std::vector<ImportPort> Sph::imports() {
+  if (!heat_) return {};
+  const auto each = [this](std::span<const double> nodes, auto&& take) {
+    std::vector<double> values(particles_.owned());
+    home_->to_particles(decomposition_->version(), nodes, values, 1);
+    for (std::size_t i = 0; i < values.size(); ++i) take(i, values[i]);
+  };
+  return {{at_nodes("temperature", 1, "K"),
+           [this, each](std::span<const double> nodes) {
+             each(nodes, [&](std::size_t i, double value) { heat_->set(i, value); });
+           }},
+          {{"heat", Location::node, FieldKind::total, 1, "J"}, [this, each](std::span<const double> nodes) {
+             each(nodes, [&](std::size_t i, double value) { heat_->add_received(i, value); });
+           }}};
+}
+
 void Sph::energies(std::vector<EnergyTerm>& terms) {
   using Role = EnergyTerm::Role;
   const std::size_t owned = particles_.owned();
@@ -96,6 +114,7 @@ void Sph::energies(std::vector<EnergyTerm>& terms) {
   for (const ForcePart& force : forces_)
     if (force.energy) row(force.row, Role::stored, *force.energy);
   formulation_->energies(terms);
+  if (heat_) heat_->energies(terms);
   if (has_gravity_) row("gravity_work", Role::supplied, *gravity_work_);
   if (has_walls_) row("boundary_work", Role::supplied, *boundary_work_);
   if (inflow_energy_) row("inflow_energy", Role::supplied, *inflow_energy_);
