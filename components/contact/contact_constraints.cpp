@@ -19,6 +19,8 @@ namespace {
 constexpr double removal_rate = 0.1;
 // Of what friction failed to hold: likewise.
 constexpr double return_rate = 0.1;
+// Of the distance of interest: what is nearer is tied, if the pair is.
+constexpr double touching = 0.02;
 // Of the distance of interest: what is less is left to the next step when a stopped node is looked at again.
 constexpr double negligible = 1e-3;
 
@@ -264,8 +266,9 @@ void Contact::add_constraint(std::size_t q, const Touch* face, const EdgeTouch* 
   const double end_gap = face ? face->end_gap : edges ? edges->end_gap : rigid->end_gap;
   const Rule& rule = rules_[static_cast<std::size_t>(pair.first_surface) * static_cast<std::size_t>(surface_count_) +
                             static_cast<std::size_t>(pair.second_surface)];
-  if (rule.tied && edges) return;                                                         // nodes hold
-  if (again_ ? end_gap > -negligible * pair.margin : end_gap > 0 && !remembers_) return;  // near, no more
+  const bool tied = rule.tied && (remembers_ || gap <= touching * pair.margin);
+  if ((rule.tied && edges) || (tied && again_)) return;  // nodes hold, each where it is
+  if (again_ ? end_gap > -negligible * pair.margin : end_gap > 0 && !remembers_ && !tied) return;  // near, no more
   Constraint c;
   c.pair = static_cast<std::int32_t>(q), c.nodes = pair.nodes, c.node = pair.node;
   c.gap = gap;
@@ -283,7 +286,7 @@ void Contact::add_constraint(std::size_t q, const Touch* face, const EdgeTouch* 
   if (!rigid) balance_moments(c, state_, support);
   c.target = gap >= 0 ? -gap / dt : -removal_rate * gap / dt;
   c.static_coefficient = rule.friction.static_coefficient, c.kinetic_coefficient = rule.friction.kinetic_coefficient;
-  c.tied = rule.tied && (remembers_ || gap <= 0);
+  c.tied = tied;
   if (c.tied) c.target = -return_rate * gap / dt;
   if (c.static_coefficient > 0 || c.tied)
     c.tangent_target = (-return_rate / dt) * tangential(pair.memory.slip, c.normal);

@@ -71,6 +71,7 @@ std::vector<Debris> Mechanics::take_debris(const std::string& block) {
   if (mesh_->comm.any(any)) {
     drop_gone_masses();
     if (contact_) contact_->change_surface();
+    choose_step();
   }
   return debris;
 }
