@@ -212,7 +212,7 @@ class Fluid final : public Formulation {
   PairHits hits_;
 };
 
-// Shifting [LXSR12, SCR13]: 2 h |v| against the gradient of the concentration, at most a fifth of the speed; less near
+// Shifting [LXSR12, SLSR13]: 2 h |v| against the gradient of the concentration, at most a fifth of the speed; less near
 // a free surface, where the divergence of the places falls from d to d/2 [LMX08], and none at it. Transport velocity
 // [AHA13]: the background pressure rho c^2 would do it in half a step.
 void Fluid::find_transport(double kick) {

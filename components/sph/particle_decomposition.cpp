@@ -34,7 +34,6 @@ void permute(Values& values, std::span<const LocalIndex> order, std::size_t comp
 constexpr double pairs_of_a_move = 200;
 // Steps for which a new balance is taken to last.
 constexpr double steps_of_balance = 100;
-constexpr double pairs_of_a_particle = 20;  // what a particle costs without its pairs
 
 }  // namespace
 
@@ -69,11 +68,15 @@ void ParticleDecomposition::arrange() {
           fmt::format("{}: the period of {} m is shorter than the support of the kernel and its skin, {} m; take more "
                       "particles across it",
                       name_, axis.period(), reach_ + skin_));
-  migrate();
-  sort();
-  find_ghosts();
-  search(false);
-  ++version_;
+  // The first parts know nothing of the work, which is counted once there are lists.
+  const int rounds = version_ == 0 && comm_.size() > 1 ? 2 : 1;
+  for (int round = 0; round < rounds; ++round) {
+    migrate();
+    sort();
+    find_ghosts();
+    search(false);
+    ++version_;
+  }
 }
 
 // What was counted when the lists were last made decides on the weights.

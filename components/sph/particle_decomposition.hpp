@@ -34,6 +34,8 @@ struct DecompositionCounts {
 /// particles alone, so sums in list order have the same bits on any number of ranks and with any parts.
 class ParticleDecomposition {
  public:
+  static constexpr double pairs_of_a_particle = 20;  ///< what a particle costs without its pairs
+
   ParticleDecomposition(const Communicator& comm, std::string name, ParticleData& data, const ParticleDomain& domain,
                         const DecompositionOptions& options);
 

@@ -63,7 +63,7 @@ struct FluidOptions {
   /// [MFZ97] or approach alone, which keeps angular momentum [Mon05].
   enum class Viscosity { artificial, morris, monaghan } viscosity = Viscosity::artificial;
   double density_diffusion = 0.1;     ///< delta of delta-SPH [MC09]; 0: none
-  bool hydrostatic_diffusion = true;  ///< what gravity makes of density does not diffuse [FDVD19]
+  bool hydrostatic_diffusion = true;  ///< what gravity makes of density does not diffuse [FDVR19]
   /// Particles are carried from where they crowd: by a share of their speed, not at free surfaces [LXSR12]; or by a
   /// background pressure, in flows without free surfaces [AHA13].
   enum class Shifting { none, shifting, transport_velocity } shifting = Shifting::none;

@@ -74,6 +74,7 @@ class SphRun {
 
   Sph& body() { return *body_; }
   const ParticleData& particles() const { return body_->particles(); }
+  const NeighbourLists& lists() const { return body_->decomposition().lists(); }
   const Communicator& comm() const { return comm_; }
   Simulation& simulation() { return simulation_; }
   double time() const { return simulation_.time(); }
