@@ -34,6 +34,8 @@ std::string exodus_type(ElementKind kind) {
       return "HEX20";
     case ElementKind::tet10:
       return "TETRA10";
+    case ElementKind::particle:
+      return "SPHERE";
     case ElementKind::tri3:
       break;
   }
