@@ -43,14 +43,16 @@ ParticleHeat::ParticleHeat(const std::string& component, const SphOptions& optio
 }
 
 void ParticleHeat::start(double time) {
-  for (std::size_t i = 0; i < particles_.owned(); ++i) {
-    const auto b = static_cast<std::size_t>(particles_.body[i]);
-    const SphBody& body = options_.bodies[b];
-    temperature_[i] =
-        body.initial_temperature ? (*body.initial_temperature)(time, particles_.position.vec(i)) : reference_[b];
-    if (body.held_temperature) temperature_[i] = (*body.held_temperature)(time);
-    heat_[i] = capacity(i) * (temperature_[i] - reference_[b]);
-  }
+  for (std::size_t i = 0; i < particles_.owned(); ++i) start(time, i);
+}
+
+void ParticleHeat::start(double time, std::size_t i) {
+  const auto b = static_cast<std::size_t>(particles_.body[i]);
+  const SphBody& body = options_.bodies[b];
+  temperature_[i] =
+      body.initial_temperature ? (*body.initial_temperature)(time, particles_.position.vec(i)) : reference_[b];
+  if (body.held_temperature) temperature_[i] = (*body.held_temperature)(time);
+  heat_[i] = capacity(i) * (temperature_[i] - reference_[b]);
 }
 
 // Energies are counted by what flowed, temperatures follow from it.

@@ -26,6 +26,9 @@ class ParticleHeat {
 
   /// Local. Of owned particles, at the start of a run.
   void start(double time);
+  void start(double time, std::size_t i);
+  /// Local. The same of a particle that comes in during the run; what it holds counts as received.
+  void wake(double time, std::size_t i) { start(time, i), received_[i] = heat_[i]; }
   /// Local. To the temperatures of the end of the step, by the rates of its start and the heat that came since.
   void advance(double time, double dt);
   /// Local. Heat that goes into an owned particle, J: of plastic work; or from elsewhere.

@@ -51,6 +51,13 @@ class Solid final : public Formulation {
       }
   }
 
+  /// Its element left neither stress nor history; the heat stays with what it brought.
+  double wake(std::size_t particle, double) override {
+    c_.heat->wake(0, particle);
+    materials_.start(particle, c_.heat->temperature()[particle]);
+    return 0;
+  }
+
   void compute(double, double dt) override {
     for (std::size_t k = 0; k < 3 * p_.owned(); ++k) predicted_[k] = p_.velocity[k] + 0.5 * dt * p_.acceleration[k];
     const std::array<Column*, 4> places{&p_.position, &p_.velocity, &predicted_, &p_.density};

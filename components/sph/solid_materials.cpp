@@ -85,15 +85,17 @@ SolidMaterials::SolidMaterials(const std::string& component, const SphOptions& o
 }
 
 void SolidMaterials::start(const Column& temperature) {
+  for (std::size_t i = 0; i < particles_.owned(); ++i) start(i, temperature[i]);
+}
+
+void SolidMaterials::start(std::size_t i, double temperature) {
   const auto rows_kept = static_cast<std::size_t>(history.components);
-  for (std::size_t i = 0; i < particles_.owned(); ++i) {
-    const MaterialModel& law = model(i);
-    for (std::size_t r = 0; r < rows_kept; ++r)
-      history[rows_kept * i + r] =
-          r < static_cast<std::size_t>(law.state_size()) ? law.initial_state(static_cast<int>(r)) : 0;
-    modulus[i] = law.elasticity().p_wave_modulus();
-    temperature_used_[i] = temperature[i];
-  }
+  const MaterialModel& law = model(i);
+  for (std::size_t r = 0; r < rows_kept; ++r)
+    history[rows_kept * i + r] =
+        r < static_cast<std::size_t>(law.state_size()) ? law.initial_state(static_cast<int>(r)) : 0;
+  modulus[i] = law.elasticity().p_wave_modulus();
+  temperature_used_[i] = temperature;
 }
 
 double SolidMaterials::eqps(std::size_t i) const {

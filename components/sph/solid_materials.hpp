@@ -24,6 +24,8 @@ class SolidMaterials {
 
   /// Local. The virgin state of owned particles, at these temperatures (K).
   void start(const Column& temperature);
+  /// Local. The same of one particle.
+  void start(std::size_t i, double temperature);
 
   /// What happened to owned particles in a step.
   struct Step {

@@ -66,6 +66,12 @@ TotalLagrangian::TotalLagrangian(const SphContext& context)
       speed_(scalar(rest_, "reference_sound_speed", false)),
       secant_(scalar(rest_, "secant_modulus", false)),
       strength_(scalar(rest_, "greatest_von_mises", true)) {
+  for (const SphBody& body : c_.options.bodies)
+    if (body.waits)
+      throw Error(ExitCode::usage,
+                  c_.name + ": '" + body.name +
+                      "' waits for elements that fail, which have no neighbours of the start; take the "
+                      "formulation `solid`");
   materials_ = std::make_unique<SolidMaterials>(c_.name, c_.options, rest_);
   for (const SphBody& body : c_.options.bodies) elasticity_.push_back(make_material_model(body.material)->elasticity());
 }
