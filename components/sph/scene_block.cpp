@@ -78,6 +78,8 @@ void read_bodies(const Value& value, const MeshSummary& mesh, const std::map<std
     for (SphBody& body : options.bodies) {
       if (body.name != name) continue;
       body.wall = own.flag("wall");
+      if (own.has("bond")) body.bond = own.text("bond");
+      if (own.has("held_temperature")) body.held_temperature = own.function("held_temperature");
       body.waits = own.has("from_elements");
       if (own.has("inflow")) read_inflow(own, options.bodies, body, diagnostics);
       if (body.wall && body.waits)
@@ -141,6 +143,9 @@ void refuse_idle_keys(const Value& value, const SphOptions& options, Diagnostics
   const std::string formulation = value.text("formulation");
   if (value.has("fluid") && options.formulation != SphFormulation::fluid)
     diagnostics.error(value.where("fluid"), "fluid: the formulation is '" + formulation + "'; leave it out");
+  if (value.has("solid") && options.formulation != SphFormulation::solid &&
+      options.formulation != SphFormulation::total_lagrangian)
+    diagnostics.error(value.where("solid"), "solid: the formulation is '" + formulation + "'; leave it out");
   for (const char* key : {"artificial_conduction", "variable_smoothing"})
     if (value.given(key) && options.formulation != SphFormulation::gas)
       diagnostics.error(value.where(key),
@@ -194,6 +199,13 @@ SphOptions read_sph(const Value& value, const MeshSummary& mesh, int dimension,
         chosen<Shifting, 3>(v.text("shifting"), {{{"none", Shifting::none},
                                                   {"shifting", Shifting::shifting},
                                                   {"transport_velocity", Shifting::transport_velocity}}});
+  }
+  options.heat_conduction = value.flag("heat_conduction");
+  if (value.has("solid")) {
+    const Value v = value.child("solid");
+    options.solid.hourglass = v.real("hourglass");
+    options.solid.contact_stiffness = v.real("contact_stiffness");
+    options.solid.artificial_stress = v.real("artificial_stress");
   }
   if (value.has("time_step")) {
     const Value step = value.child("time_step");

@@ -56,6 +56,8 @@ Schema block_schema() {
   s.text("from_elements",
          "Component and block of solid elements, as `plate.target`: each particle waits, and is the element from when "
          "that fails on, with its mass, momentum and energy. The mesh has them from a body of `type: elements`.");
+  s.text("bond", "Of `total_lagrangian`: blocks with the same word here hold together, as at a clamp.");
+  s.function("held_temperature", "K", "Temperature that its particles keep, whatever heat flows.");
   add_start(s);
   return s;
 }
@@ -107,6 +109,20 @@ Schema fluid_schema() {
   return s;
 }
 
+Schema solid_schema() {
+  Schema s("Of `formulation: solid` and `total_lagrangian`.");
+  s.quantity("hourglass", "1",
+             "Of `total_lagrangian`: resistance to modes that no strain sees [Gan15], over Young's modulus; 0: none.",
+             "10", {0, 1000, false, false});
+  s.quantity("contact_stiffness", "1", "Of `total_lagrangian`: what keeps bodies apart, over their own stiffness.", "1",
+             {0, 10, false, false});
+  s.quantity("artificial_stress", "1",
+             "Of `solid`: share of a tension that pairs do not feel when they come near, against numerical fracture "
+             "[Mon00]; 0: none, 0.3 is usual.",
+             "0", {0, 1, false, false});
+  return s;
+}
+
 Schema time_step_schema() {
   Schema s("Time step of the component.");
   s.quantity("cfl", "1", "Share of the smoothing length that a signal may cross in a step.", "0.25",
@@ -146,6 +162,9 @@ Schema sph_schema() {
              "Heat that flows across jumps of the energy of a gas: 0 none, 1 as much as [Pri08].", "0",
              {0, 10, false, false});
   s.object("fluid", fluid_schema(), "Of `formulation: fluid`.");
+  s.object("solid", solid_schema(), "Of solids.");
+  s.flag("heat_conduction", "Heat flows between particles that are near each other; materials need `thermal`.",
+         "false");
   s.object("time_step", time_step_schema(), "Time step of the component.");
   s.quantity("skin", "1",
              "How far lists of neighbours reach beyond the support, in supports: the longer the seldomer "
