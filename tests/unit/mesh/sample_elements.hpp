@@ -10,7 +10,8 @@
 
 namespace tenon::testing {
 
-inline constexpr std::array<ElementKind, element_kinds> all_kinds{
+/// Every kind that has a shape: all but particles.
+inline constexpr std::array<ElementKind, element_kinds - 1> all_kinds{
     ElementKind::hex8,  ElementKind::tet4, ElementKind::wedge6, ElementKind::pyramid5,
     ElementKind::quad4, ElementKind::tri3, ElementKind::hex20,  ElementKind::tet10};
 inline constexpr std::array<ElementKind, 6> solid_kinds{ElementKind::hex8,     ElementKind::tet4,  ElementKind::wedge6,
@@ -56,6 +57,8 @@ inline std::vector<Vec3> reference_element(ElementKind kind) {
       return {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
     case ElementKind::tri3:
       return {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    case ElementKind::particle:
+      return {{0, 0, 0}};
     case ElementKind::hex8:
       break;
   }

@@ -103,10 +103,11 @@ TEST(Topology, ExodusNamesNeedTheNumberOfNodes) {
   EXPECT_EQ(kind_of_exodus("HEX", 20), ElementKind::hex20);
   EXPECT_EQ(kind_of_exodus("tetra10", 10), ElementKind::tet10);
   EXPECT_EQ(kind_of_exodus("HEX", 27), std::nullopt);
-  EXPECT_EQ(kind_of_exodus("SPHERE", 1), std::nullopt);
+  EXPECT_EQ(kind_of_exodus("SPHERE", 1), ElementKind::particle);
+  EXPECT_EQ(kind_of_exodus("SPHERE", 2), std::nullopt);
   EXPECT_EQ(kind_of_exodus("", 8), std::nullopt);
-  EXPECT_EQ(kind_of_gmsh(15), std::nullopt);
-  EXPECT_EQ(kind_of_vtk(1), std::nullopt);
+  EXPECT_EQ(kind_of_gmsh(15), ElementKind::particle);
+  EXPECT_EQ(kind_of_vtk(1), ElementKind::particle);
 }
 
 TEST(Topology, EdgesOfSurfacesFollowTheirNodes) {
