@@ -176,7 +176,8 @@ void Sph::kick(double dt) {
 }
 
 // What the forces did in the kick, with the velocities that contact left. What acts on a wall is taken up by what moves
-// it: its kinetic energy is not counted, but the work of others on it is.
+// it: its kinetic energy is not counted, but the work of others on it is. Velocities are carried on to x(n+1) by all
+// that changed them, gravity and contact too: a particle that is held by a wall would else seem to leave it.
 void Sph::settle() {
   const ScopedTimer timer(*phases_.update);
   Vec3 g{};
@@ -193,6 +194,8 @@ void Sph::settle() {
     if (has_gravity_ && !wall) (*gravity_work_)[i] += particles_.mass[i] * dot(g, way);
   }
   formulation_->settle(kick_);
+  const std::size_t count = 3 * particles_.owned();
+  for (std::size_t k = 0; k < count; ++k) particles_.acceleration[k] = (after[k] - before[k]) / kick_;
 }
 
 void Sph::drift(double dt) {
