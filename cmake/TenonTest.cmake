@@ -3,6 +3,8 @@
 #
 # One GoogleTest program, registered once per rank count as NAME.npN. Ranks beyond the cores are
 # oversubscribed. The program's main initialises MPI and fails on every rank if one rank fails.
+# Programs with the label `nightly` are left out of the default build: `ninja nightly`, then `ctest -L nightly`.
+add_custom_target(nightly COMMENT "Programs of nightly tests")
 function(tenon_test name)
   cmake_parse_arguments(T "" "TIMEOUT" "SOURCES;ROOMS;LIBRARIES;RANKS;LABELS" ${ARGN})
   if(NOT T_RANKS)
@@ -13,6 +15,10 @@ function(tenon_test name)
   endif()
   list(TRANSFORM T_ROOMS PREPEND tenon_)
   add_executable(${name} ${T_SOURCES})
+  if("nightly" IN_LIST T_LABELS)
+    set_target_properties(${name} PROPERTIES EXCLUDE_FROM_ALL ON)
+    add_dependencies(nightly ${name})
+  endif()
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   target_link_libraries(${name} PRIVATE ${T_ROOMS} tenon_test_support ${T_LIBRARIES})
   foreach(ranks ${T_RANKS})

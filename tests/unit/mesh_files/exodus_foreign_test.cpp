@@ -117,7 +117,7 @@ TEST_F(ForeignExodus, KnowsTheSpellingsOfTypes) {
 TEST_F(ForeignExodus, OfHigherOrderOrUnknownKindIsRefusedByName) {
   const std::vector<Block> refused{{"TETRA", 8, first(8)},
                                    {"HEX27", 27, std::vector<int>(27, 1)},
-                                   {"SPHERE", 1, {1}},
+                                   {"SPHERE", 2, {1, 2}},
                                    {"BAR2", 2, {1, 2}},
                                    {"NSIDED", 4, first(4)}};
   for (const Block& block : refused) {
