@@ -373,6 +373,7 @@ BuiltScene build_simulation(const Communicator& comm, Log& log, const LoadedScen
   built.simulation = std::make_unique<Simulation>(comm, log, start, end);
   built.simulation->limit_steps(scene.value.integer("maximum_steps"));
   distribute_to(comm, meshes, planned, *built.simulation);
+  for (const Planned& p : planned) built.divisions.push_back({p.cost, p.partition});
   add_contact(comm, scene, *built.simulation, diagnostics);
   add_transfers(scene, *built.simulation, diagnostics);
   add_debris_links(scene, *built.simulation, diagnostics);

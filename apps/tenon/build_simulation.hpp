@@ -24,6 +24,11 @@ struct BuiltScene {
   std::unique_ptr<Simulation> simulation;
   OutputPlan output;
   std::vector<std::string> warnings;
+  struct Division {
+    ElementCost cost;
+    PartitionMethod method;
+  };
+  std::vector<Division> divisions;  ///< of the meshes of the components, in their order
 };
 
 /// Collective. Reads the meshes, checks every name of the scene against them, distributes, makes components and

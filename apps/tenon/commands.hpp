@@ -20,6 +20,15 @@ struct RunArguments {
   std::string restart;                ///< empty, a file, or "latest"
 };
 
+struct PlanArguments {
+  std::string scene;
+  std::vector<std::string> settings;  ///< key.path=value
+  std::vector<int> ranks;             ///< to predict for; empty: only what is here
+  std::vector<std::string> machines{"here"}, decompositions{"own"};
+  std::string csv;                    ///< file for the predictions; empty: none
+  std::int64_t after = 0, trial = 0;  ///< steps before the trial, and of it (0: a second)
+};
+
 class Simulation;
 
 /// What a study looks at in each of its runs; all collective.
@@ -42,8 +51,9 @@ ExitCode study_scene(const Communicator& comm, const StudyArguments& arguments);
 ExitCode transfer_results(const Communicator& comm, const TransferArguments& arguments);
 /// Collective. Everything that can be refused without running. Throws Error.
 void check_scene(const Communicator& comm, const RunArguments& arguments);
-/// Collective. Prints sizes, time step and its limit, steps, predicted seconds and memory, and what will be skipped.
-void plan_scene(const Communicator& comm, const RunArguments& arguments);
+/// Collective. Prints sizes, time step and its limit, steps, predicted seconds and memory, and what will be skipped; on
+/// request what a step would take on other numbers of ranks. Throws Error.
+void plan_scene(const Communicator& comm, const PlanArguments& arguments);
 
 /// Tenon's version with those of compiler, MPI, HDF5, VTK and Zoltan.
 std::string version_text();

@@ -34,6 +34,33 @@ void add_scene_options(CLI::App& command, tenon::RunArguments& arguments) {
       ->allow_extra_args(false);
 }
 
+void add_plan_options(CLI::App& plan, tenon::PlanArguments& arguments) {
+  plan.add_option("scene", arguments.scene, "Scene file (YAML)")->required();
+  plan.add_option("--set", arguments.settings, "Change a value of the scene: key.path=value; may be repeated")
+      ->allow_extra_args(false);
+  plan.add_option("--ranks", arguments.ranks,
+                  "Predict the step on so many ranks, from decompositions for each: 64,128,1024")
+      ->delimiter(',')
+      ->check(CLI::Range(1, 65536));
+  plan.add_option("--machine", arguments.machines,
+                  "Machine that the prediction is for: here, tflops (1997), cluster, or a YAML file with latency, "
+                  "bandwidth, slowness; a list is allowed")
+      ->delimiter(',')
+      ->capture_default_str();
+  plan.add_option("--decomposition", arguments.decompositions,
+                  "Of contact and particles, to compare: own, slices, static; a list is allowed")
+      ->delimiter(',')
+      ->capture_default_str();
+  plan.add_option("--csv", arguments.csv, "Write the prediction, a row per phase");
+  plan.add_option("--after", arguments.after, "Run so many steps first, for a state that stands for the run")
+      ->check(CLI::NonNegativeNumber);
+  plan.add_option("--trial", arguments.trial, "Measure so many steps (default: as many as fit in a second)")
+      ->check(CLI::NonNegativeNumber);
+  plan.footer(
+      "Example, the scaling of a scene from 64 to 1024 ranks of today's cluster:\n"
+      "  tenon plan scene.yaml --ranks 64,128,256,512,1024 --machine cluster --after 100 --csv scaling.csv");
+}
+
 void add_study_options(CLI::App& study, tenon::StudyArguments& arguments) {
   study.add_option("file", arguments.file, "Study file (YAML); or a scene, with --vary and --quantity")->required();
   study.add_option("-o,--output", arguments.folder, "Folder for the results (default: the file's name with .results)");
@@ -188,7 +215,8 @@ int main(int argc, char** argv) {
   CLI::App& check = *app.add_subcommand("check", "Check a scene and its meshes without running");
   add_scene_options(check, arguments);
   CLI::App& plan = *app.add_subcommand("plan", "Say what a run would cost and what it would skip");
-  add_scene_options(plan, arguments);
+  tenon::PlanArguments plan_arguments;
+  add_plan_options(plan, plan_arguments);
   tenon::StudyArguments study_arguments;
   CLI::App& study = *app.add_subcommand("study", "Run a scene for several values of its keys, and compare the errors");
   add_study_options(study, study_arguments);
@@ -217,7 +245,7 @@ int main(int argc, char** argv) {
     if (check.parsed()) tenon::check_scene(comm, arguments);
     if (study.parsed()) return tenon::study_scene(comm, study_arguments);
     if (transfer.parsed()) return tenon::transfer_results(comm, transfer_arguments);
-    if (plan.parsed()) tenon::plan_scene(comm, arguments);
+    if (plan.parsed()) tenon::plan_scene(comm, plan_arguments);
     return ExitCode::done;
   });
 }

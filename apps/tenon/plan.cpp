@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "apps/tenon/build_simulation.hpp"
 #include "apps/tenon/commands.hpp"
+#include "apps/tenon/plan_scaling.hpp"
 #include "framework/decomposition/graph_partition.hpp"
 #include "framework/simulation/run_report.hpp"
 
 namespace tenon {
 
 namespace {
-
-constexpr double trial_seconds = 1.0;
-constexpr std::int64_t greatest_trial_steps = 200;
 
 double megabytes(std::int64_t bytes) {
   return static_cast<double>(bytes) / 1048576.0;
@@ -57,21 +54,11 @@ void print_skips(Simulation& simulation) {
     for (const SkipCount& skip : interaction->skips()) log.print("  {}: {}", interaction->name(), skip.what);
 }
 
-/// Seconds per step of the leader, from a few real steps.
-double trial(Simulation& simulation, std::int64_t& steps) {
-  const auto start = std::chrono::steady_clock::now();
-  const auto elapsed = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
-  for (steps = 0; steps < greatest_trial_steps && !simulation.done(); ++steps) {
-    if (simulation.comm().max(elapsed()) > trial_seconds) break;
-    simulation.step();
-  }
-  return steps > 0 ? simulation.comm().max(elapsed()) / static_cast<double>(steps) : 0.0;
-}
-
 }  // namespace
 
-void plan_scene(const Communicator& comm, const RunArguments& arguments) {
+void plan_scene(const Communicator& comm, const PlanArguments& arguments) {
   Log log(comm.rank() == 0);
+  check_plan(comm, arguments);
   const LoadedScene scene = load_scene(comm, arguments.scene, parse_overrides(arguments.settings));
   log.print("{}\n{} on {} ranks", version_text(), scene.title, comm.size());
   BuiltScene built = build_simulation(comm, log, scene);
@@ -91,16 +78,17 @@ void plan_scene(const Communicator& comm, const RunArguments& arguments) {
     maps += coupling->memory();
   }
   const double duration = simulation.end_time() - simulation.start_time();
-  std::int64_t steps = 0;
-  const double seconds = trial(simulation, steps);
+  const Trial trial = try_steps(simulation, {arguments.after, arguments.trial});
   const double done = simulation.time() - simulation.start_time();
-  const double predicted = done > 0 ? static_cast<double>(steps) * duration / done : 0.0;
+  const double predicted = done > 0 ? static_cast<double>(simulation.steps()) * duration / done : 0.0;
   print_skips(simulation);
   log.print(
       "\npredicted: about {:.0f} steps in {:.0f} s on these {} ranks, without output (from {} trial steps; the step "
       "shrinks as elements deform); memory {:.0f} MiB in all, of which transfer maps {:.1f} MiB",
-      predicted, predicted * seconds, comm.size(), steps, megabytes(comm.sum(peak_memory())),
+      predicted, predicted * trial.seconds, comm.size(), trial.steps, megabytes(comm.sum(peak_memory())),
       megabytes(comm.sum(maps)));
+  if (arguments.trial > 0 || !arguments.ranks.empty()) print_trial(log, comm, trial);
+  if (!arguments.ranks.empty()) plan_scaling(built, arguments, trial);
 }
 
 }  // namespace tenon

@@ -60,6 +60,10 @@ class CandidateSearch {
   /// Local, during the search: present place of a node of this rank, m; and a face of this rank.
   const Vec3& sought_place(LocalIndex node) const { return sought_nodes_[static_cast<std::size_t>(node)].place; }
   FaceShape sought_face(LocalIndex face) const;
+  /// Boxes of the last search on this rank: of nodes(), of faces(), of the sharp edges.
+  std::span<const Box> node_boxes() const { return node_boxes_; }
+  std::span<const Box> face_boxes() const { return face_boxes_; }
+  std::span<const Box> edge_boxes() const { return edge_boxes_; }
   /// Counted work of the last searches on this rank: box tests.
   std::int64_t work() const { return face_search_.work().tests + edge_search_.work().tests; }
   /// Velocity that all nodes have in common, m/s: their skins move with it. And the time since the search, s.

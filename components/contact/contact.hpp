@@ -63,6 +63,10 @@ class Contact final : public Interaction {
   std::int64_t enforcement_work() const { return enforcement_work_; }
   std::int64_t searches() const { return searches_; }
   std::int64_t steps() const { return steps_; }
+  /// Local, for plans: what is searched, and what is enforced.
+  const contact::ContactSurfaces& surfaces() const { return surfaces_; }
+  const contact::CandidateSearch& candidates() const { return search_; }
+  const contact::WorkingSet& working_set() const { return set_; }
   /// Of enforcement, since the start.
   std::int64_t iterations() const { return iterations_total_; }
 

@@ -93,6 +93,8 @@ class WorkingSet {
   const ExchangePlan& results() const { return results_; }
   /// From the rank that sums for a node to the others that have it.
   const ExchangePlan& halo() const { return halo_; }
+  /// Where a node of the set is kept.
+  const ItemHandle& home(LocalIndex node) const { return homes_[static_cast<std::size_t>(node)]; }
   /// Whether any rank has a pair.
   bool any() const { return any_; }
   /// Pairs on this rank that were left out since they face the same way, or are too far apart to meet.
@@ -101,6 +103,7 @@ class WorkingSet {
   std::span<const double> lost() const { return lost_; }
   /// Counted work of enforcement per node of the set, for the next partition.
   std::vector<float>& work() { return work_; }
+  std::span<const float> work() const { return work_; }
   std::int64_t memory() const;
 
  private:

@@ -243,6 +243,8 @@ void ParticleDecomposition::find_ghosts() {
 }
 
 void ParticleDecomposition::refresh(std::span<Column* const> columns) const {
+  ++counts_.refreshes;
+  for (const Column* const column : columns) counts_.refreshed += column->components;
   if (!any_ghosts_) return;
   std::array<ExchangeItem, 64> items;
   std::size_t count = 0;

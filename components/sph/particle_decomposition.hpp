@@ -25,6 +25,7 @@ struct DecompositionOptions {
 /// Counts for the report.
 struct DecompositionCounts {
   std::int64_t renewals = 0, rebalances = 0, moved = 0;
+  std::int64_t refreshes = 0, refreshed = 0;  ///< of ghosts: calls, and values of each ghost, were there any
   double imbalance = 1;  ///< greatest over mean work of a rank, when the order was last chosen
 };
 
@@ -57,6 +58,8 @@ class ParticleDecomposition {
   const DomainImages& images() const { return images_; }
   /// Changes whenever particles change places in the arrays.
   std::int64_t version() const { return version_; }
+  /// m: particles nearer than this to a part have a copy there.
+  double ghost_reach() const { return reach_ + skin_; }
   std::int64_t memory() const;
 
  private:
@@ -81,7 +84,7 @@ class ParticleDecomposition {
   NeighbourLists lists_;
   std::vector<double> reaches_;
   std::vector<Vec3> places_;
-  DecompositionCounts counts_;
+  mutable DecompositionCounts counts_;
   std::int64_t version_ = 0;
 };
 

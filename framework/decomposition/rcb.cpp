@@ -10,10 +10,13 @@
 namespace tenon {
 
 struct Rcb::Impl {
-  explicit Impl(const Communicator& comm_in)
-      : comm(comm_in), found_ranks(static_cast<std::size_t>(comm.size())), found_parts(found_ranks.size()) {
-    if (comm.size() == 1) return;
-    zoltan = std::make_unique<ZoltanPartitioner>(comm, comm.size());
+  Impl(const Communicator& comm_in, int parts_in)
+      : comm(comm_in),
+        parts(parts_in),
+        found_ranks(static_cast<std::size_t>(std::max(parts, comm.size()))),
+        found_parts(found_ranks.size()) {
+    if (parts == 1) return;
+    zoltan = std::make_unique<ZoltanPartitioner>(comm, parts);
     zoltan->set("LB_METHOD", "RCB");
     zoltan->set("KEEP_CUTS", "1");
     zoltan->set("RCB_LOCK_DIRECTIONS", "1");  // otherwise cuts turn, and half of all points move
@@ -22,12 +25,15 @@ struct Rcb::Impl {
   }
 
   Communicator comm;
-  std::unique_ptr<ZoltanPartitioner> zoltan;  // none on one rank
+  int parts;
+  std::unique_ptr<ZoltanPartitioner> zoltan;  // none for one part
   bool has_cuts = false;
   std::vector<int> found_ranks, found_parts;
 };
 
-Rcb::Rcb(const Communicator& comm) : impl_(std::make_shared<Impl>(comm)) {}
+Rcb::Rcb(const Communicator& comm) : Rcb(comm, comm.size()) {}
+
+Rcb::Rcb(const Communicator& comm, int parts) : impl_(std::make_shared<Impl>(comm, parts)) {}
 
 std::vector<int> Rcb::partition(std::span<const Vec3> coordinates, std::span<const double> weights) {
   std::vector<int> part(coordinates.size(), 0);
@@ -77,7 +83,7 @@ std::vector<int> Rcb::partition_by_sample(std::span<const Vec3> coordinates, std
   constexpr std::int64_t sample_of_rank = 20000;
   const Communicator& comm = impl_->comm;
   const std::int64_t all = comm.sum(static_cast<std::int64_t>(coordinates.size()));
-  const std::int64_t stride = all / (sample_of_rank * comm.size());
+  const std::int64_t stride = all / (sample_of_rank * impl_->parts);
   if (!impl_->zoltan || stride < 2) return partition(coordinates, weights);
   std::vector<Vec3> sample;
   std::vector<double> sample_weights;
@@ -90,7 +96,7 @@ std::vector<int> Rcb::partition_by_sample(std::span<const Vec3> coordinates, std
   if (!impl_->has_cuts) return part;
   constexpr int few = 16;
   std::vector<Box> boxes;
-  for (int r = 0; r < comm.size() && comm.size() <= few; ++r) boxes.push_back(box_of_part(impl_->zoltan->get(), r));
+  for (int r = 0; r < impl_->parts && impl_->parts <= few; ++r) boxes.push_back(box_of_part(impl_->zoltan->get(), r));
   int last = 0;
   const auto holds = [&](int r, const Vec3& x) {
     const Box& box = boxes[static_cast<std::size_t>(r)];
@@ -106,7 +112,7 @@ std::vector<int> Rcb::partition_by_sample(std::span<const Vec3> coordinates, std
       if (Zoltan_LB_Point_PP_Assign(impl_->zoltan->get(), point, &rank, &last) != ZOLTAN_OK)
         throw Error(ExitCode::usage, "Zoltan fails to find the part that a point lies in");
     } else if (!holds(last, x)) {
-      for (int r = 0; r < comm.size(); ++r)
+      for (int r = 0; r < impl_->parts; ++r)
         if (holds(r, x)) last = r;
     }
     part[i] = last;

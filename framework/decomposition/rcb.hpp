@@ -17,8 +17,10 @@ namespace tenon {
 class Rcb {
  public:
   explicit Rcb(const Communicator& comm);
+  /// The same cuts for any number of parts, to plan for more ranks than there are.
+  Rcb(const Communicator& comm, int parts);
 
-  /// Collective. Part (= rank) of each point. `coordinates` is n x 3, m; `weights` is empty or n, > 0. Ties on
+  /// Collective. Part (= rank, unless parts were given) of each point. `coordinates` is n x 3, m; `weights` is empty or n, > 0. Ties on
   /// a cut are decided by Zoltan: take the ownership from here, never from `rank_of`. Works with no points at all.
   std::vector<int> partition(std::span<const Vec3> coordinates, std::span<const double> weights);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Dual graph of a whole mesh, and owners of its nodes. Time and memory are linear in the size of the mesh.
+// Dual graph of a whole mesh. Time and memory are linear in the size of the mesh.
 #include "framework/mesh/dual_graph.hpp"
 
 #include <algorithm>
@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include "framework/mesh/facets.hpp"
-#include "framework/mesh/halo.hpp"
 
 namespace tenon {
 
@@ -62,31 +61,6 @@ PartitionGraph dual_graph(const MeshData& mesh, const ElementCost& cost, bool ad
   graph.offsets.assign(count + 1, 0);
   if (adjacency) add_adjacency(mesh, graph);
   return graph;
-}
-
-std::vector<int> node_owners(const MeshData& mesh, const std::vector<int>& element_owners) {
-  std::vector<std::size_t> end(mesh.coordinates.size() + 1, 0);
-  for (const BlockData& block : mesh.blocks)
-    for (const GlobalId n : block.connectivity) ++end[static_cast<std::size_t>(n) + 1];
-  std::partial_sum(end.begin(), end.end(), end.begin());
-  std::vector<int> touching(end.back());
-  std::size_t element = 0;
-  for (const BlockData& block : mesh.blocks) {
-    const auto nodes = static_cast<std::size_t>(topology(block.kind).nodes);
-    for (std::size_t e = 0; e < block.size(); ++e, ++element)
-      for (std::size_t i = 0; i < nodes; ++i)
-        touching[end[static_cast<std::size_t>(block.connectivity[e * nodes + i])]++] = element_owners[element];
-  }
-  std::vector<int> owners(mesh.coordinates.size(), 0);
-  auto begin = touching.begin();
-  for (std::size_t n = 0; n < owners.size(); ++n) {
-    const auto last = touching.begin() + static_cast<std::ptrdiff_t>(end[n]);
-    std::sort(begin, last);
-    const auto distinct = static_cast<std::size_t>(std::unique(begin, last) - begin);
-    if (distinct > 0) owners[n] = node_owner(static_cast<GlobalId>(n), std::span<const int>(begin, distinct));
-    begin = last;
-  }
-  return owners;
 }
 
 }  // namespace tenon

@@ -48,7 +48,7 @@ bool SearchParts::meets(const Box& box, const Box& part) {
 
 void SearchParts::cut(SearchDecomposition decomposition, std::span<const Vec3> centres,
                       std::span<const double> weights) {
-  const auto ranks = static_cast<std::size_t>(comm_.size());
+  const auto ranks = static_cast<std::size_t>(count_);
   bounds_ = bounds_of_all(comm_, centres);
   parts_.assign(ranks, Box());
   parts_[0] = everywhere;
@@ -95,7 +95,7 @@ std::vector<Box> SearchParts::slices(std::span<const Vec3> centres, std::span<co
   comm_.sum(std::span(weight));
   std::int64_t all = 0, below = 0;
   for (const std::int64_t w : weight) all += w;
-  const auto ranks = static_cast<std::size_t>(comm_.size());
+  const auto ranks = static_cast<std::size_t>(count_);
   std::vector<Box> parts(ranks, everywhere);
   std::size_t part = 0;
   for (std::size_t b = 0; b < bins && part + 1 < ranks; ++b) {

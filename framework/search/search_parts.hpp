@@ -21,7 +21,9 @@ enum class SearchDecomposition { rcb, slices, owner_boxes };
 /// decides so by comparing the same numbers.
 class SearchParts {
  public:
-  explicit SearchParts(const Communicator& comm) : comm_(comm), rcb_(comm) {}
+  explicit SearchParts(const Communicator& comm) : SearchParts(comm, comm.size()) {}
+  /// The same cuts for any number of parts, to plan for more ranks than there are.
+  SearchParts(const Communicator& comm, int parts) : comm_(comm), count_(parts), rcb_(comm, parts) {}
 
   /// Collective. Parts of equal weight by centres and weights (> 0); what is not finite is passed over.
   void cut(SearchDecomposition decomposition, std::span<const Vec3> centres, std::span<const double> weights);
@@ -29,7 +31,7 @@ class SearchParts {
 
   /// Whether the point lies in the part of this rank.
   bool owns(const Vec3& x) const { return is_in(x, parts_[static_cast<std::size_t>(comm_.rank())]); }
-  /// Ranks whose part the box meets, in ascending order, in place of what was in `ranks`.
+  /// Parts (ranks) that the box meets, in ascending order, in place of what was in `ranks`.
   void ranks_meeting(const Box& box, std::vector<int>& ranks) const;
 
  private:
@@ -38,6 +40,7 @@ class SearchParts {
   std::vector<Box> slices(std::span<const Vec3> centres, std::span<const double> weights) const;
 
   Communicator comm_;
+  int count_;
   Rcb rcb_;
   std::vector<Box> parts_;  // of all ranks; upper faces excluded
   Box bounds_;              // all cuts are in it

@@ -211,5 +211,22 @@ TEST(Rcb, WorksWithoutPointsAndWithPointsThatAreNotFinite) {
   EXPECT_EQ(rcb.partition(std::vector<Vec3>(3, Vec3{nan, nan, nan}), {}), std::vector<int>(3, 0));
 }
 
+// To plan for more ranks than there are.
+TEST(Rcb, MakesAnyNumberOfPartsInOneProcess) {
+  const std::vector<Vec3> points = points_of(Shape::random, 6000, 7);
+  for (const int parts : {1, 5, 64}) {
+    Rcb rcb(Communicator::self(), parts);
+    const std::vector<int> part = rcb.partition(points, {});
+    std::vector<int> count(static_cast<std::size_t>(parts), 0), found;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      ++count[static_cast<std::size_t>(part[i])];
+      found.clear();
+      rcb.ranks_overlapping({points[i], points[i]}, found);
+      EXPECT_NE(std::find(found.begin(), found.end(), part[i]), found.end());
+    }
+    EXPECT_LE(*std::max_element(count.begin(), count.end()), 1.02 * 6000 / parts + 2) << parts;
+  }
+}
+
 }  // namespace
 }  // namespace tenon
