@@ -32,6 +32,7 @@ class Fluid final : public Formulation {
         internal_(p_.add("internal_energy", ColumnKind::scalar, 1, true)),
         viscosity_(p_.add("viscosity_energy", ColumnKind::scalar, 1, true)) {
     require_equations_of_state(context.name, context.options);
+    require_stiffness(context.name, context.options);
     for (const SphBody& body : context.options.bodies) walls_ = walls_ || body.wall;
     const FluidOptions& fluid = c_.options.fluid;
     if (walls_ && !fluid.slip) slip_ = &p_.add("slip_velocity", ColumnKind::vector, 4, false);

@@ -21,6 +21,15 @@ void require_equations_of_state(const std::string& component, const SphOptions& 
                               component, body.material.name, body.name));
 }
 
+void require_stiffness(const std::string& component, const SphOptions& options) {
+  for (const SphBody& body : options.bodies)
+    if (!(body.material.equation_of_state->bulk_modulus() > 0))
+      throw Error(ExitCode::usage,
+                  fmt::format("{}: the equation of state of the material '{}' of '{}' has no stiffness without energy, "
+                              "of which `formulation: fluid` keeps no account; say `formulation: gas`",
+                              component, body.material.name, body.name));
+}
+
 double undeformed_sound(const SphBody& body) {
   return std::sqrt(body.material.equation_of_state->bulk_modulus() / body.material.density);
 }

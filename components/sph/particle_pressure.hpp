@@ -13,6 +13,10 @@ namespace tenon {
 /// Throws Error(usage) naming the body (and the component) whose material has no equation of state.
 void require_equations_of_state(const std::string& component, const SphOptions& options);
 
+/// Throws Error(usage) if a material is not stiff at rest (ideal gas without energy): pressure from density alone needs
+/// it.
+void require_stiffness(const std::string& component, const SphOptions& options);
+
 /// Of owned particles, from their densities (kg/m^3) and, if not null, specific internal energies (J/kg; else those of
 /// the start): pressure (Pa), not below the least that the material bears, and speed of sound (m/s), not below zero.
 void find_pressures(const SphOptions& options, const ParticleData& particles, const Column* energy, Column& pressure,

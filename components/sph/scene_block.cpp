@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <utility>
+#include <variant>
 
 #include "framework/scene/known_names.hpp"
 
@@ -139,8 +140,50 @@ void read_accelerations(const Value& value, SphOptions& options, Diagnostics& di
                                                             axes[c], options.dimension));
 }
 
+bool depends_on_energy(const EquationOfState& state) {
+  if (const auto* p = std::get_if<PolynomialState>(&state.law)) return p->C[4] != 0 || p->C[5] != 0 || p->C[6] != 0;
+  if (const auto* g = std::get_if<Gruneisen>(&state.law)) return g->gamma0 != 0 || g->a != 0;
+  return !std::holds_alternative<TaitState>(state.law);
+}
+
+/// What suits the materials of the bodies that are no walls.
+SphFormulation suitable_formulation(const std::vector<SphBody>& bodies) {
+  bool strength = false, energy = false, state = false, waits = false;
+  for (const SphBody& body : bodies) {
+    if (body.wall) continue;
+    const MaterialDescription& m = body.material;
+    waits = waits || body.waits;
+    strength = strength || m.elastic || !std::holds_alternative<std::monostate>(m.whole_law);
+    state = state || m.equation_of_state;
+    energy = energy || (m.equation_of_state && depends_on_energy(*m.equation_of_state));
+  }
+  if (strength) return state || waits ? SphFormulation::solid : SphFormulation::total_lagrangian;
+  return energy ? SphFormulation::gas : SphFormulation::fluid;
+}
+
+/// What the constructors refuse too, here with its place in the scene.
+void check_states(const Value& value, const SphOptions& options, Diagnostics& diagnostics) {
+  const bool fluid = options.formulation == SphFormulation::fluid;
+  if (!fluid && options.formulation != SphFormulation::gas) return;
+  for (const SphBody& body : options.bodies) {
+    const auto& state = body.material.equation_of_state;
+    if (body.material.name.empty()) continue;  // told before
+    if (!state)
+      diagnostics.error(value.where("formulation"),
+                        fmt::format("the material '{}' of '{}' has no equation_of_state, from which its pressure "
+                                    "would follow; give it one, or `elastic` to everything that is a solid",
+                                    body.material.name, body.name));
+    else if (fluid && !(state->bulk_modulus() > 0))
+      diagnostics.error(value.where("formulation"),
+                        fmt::format("the equation of state of the material '{}' of '{}' has no stiffness without "
+                                    "energy, of which fluids keep no account; say `formulation: gas`",
+                                    body.material.name, body.name));
+  }
+}
+
 void refuse_idle_keys(const Value& value, const SphOptions& options, Diagnostics& diagnostics) {
-  const std::string formulation = value.text("formulation");
+  constexpr std::array<const char*, 4> names{"fluid", "gas", "solid", "total_lagrangian"};
+  const std::string formulation = names[static_cast<std::size_t>(options.formulation)];
   if (value.has("fluid") && options.formulation != SphFormulation::fluid)
     diagnostics.error(value.where("fluid"), "fluid: the formulation is '" + formulation + "'; leave it out");
   if (value.has("solid") && options.formulation != SphFormulation::solid &&
@@ -159,11 +202,6 @@ SphOptions read_sph(const Value& value, const MeshSummary& mesh, int dimension,
   using Limiter = ArtificialViscosity::Switch;
   SphOptions options;
   options.dimension = dimension;
-  options.formulation =
-      chosen<SphFormulation, 4>(value.text("formulation"), {{{"fluid", SphFormulation::fluid},
-                                                             {"gas", SphFormulation::gas},
-                                                             {"solid", SphFormulation::solid},
-                                                             {"total_lagrangian", SphFormulation::total_lagrangian}}});
   options.kernel =
       chosen<SphKernelKind, 4>(value.text("kernel"), {{{"wendland_c2", SphKernelKind::wendland_c2},
                                                        {"wendland_c4", SphKernelKind::wendland_c4},
@@ -172,6 +210,13 @@ SphOptions read_sph(const Value& value, const MeshSummary& mesh, int dimension,
   options.smoothing = value.real("smoothing");
   options.variable_smoothing = value.flag("variable_smoothing");
   read_bodies(value, mesh, materials, options, diagnostics);
+  options.formulation = suitable_formulation(options.bodies);
+  if (value.text("formulation") != "by_material")
+    options.formulation = chosen<SphFormulation, 4>(value.text("formulation"),
+                                                    {{{"fluid", SphFormulation::fluid},
+                                                      {"gas", SphFormulation::gas},
+                                                      {"solid", SphFormulation::solid},
+                                                      {"total_lagrangian", SphFormulation::total_lagrangian}}});
   read_domain(value, options, diagnostics);
   read_accelerations(value, options, diagnostics);
   if (value.has("artificial_viscosity")) {
@@ -216,6 +261,7 @@ SphOptions read_sph(const Value& value, const MeshSummary& mesh, int dimension,
   options.skin = value.real("skin");
   options.always_search = value.flag("always_search");
   refuse_idle_keys(value, options, diagnostics);
+  check_states(value, options, diagnostics);
   return options;
 }
 

@@ -138,11 +138,13 @@ Schema time_step_schema() {
 Schema sph_schema() {
   Schema s("Smoothed particle hydrodynamics: fluids, gases and solids of particles.");
   s.text("mesh", "Name of a mesh of particles (`type: particles`).").required();
-  s.choice("formulation", {"fluid", "gas", "solid", "total_lagrangian"},
+  s.choice("formulation", {"by_material", "fluid", "gas", "solid", "total_lagrangian"},
            "`fluid`: weakly compressible, pressure from density alone; `gas`: any equation of state with energy, gases "
            "and shocks; `solid`: strength, on the present neighbours; `total_lagrangian`: strength, on the neighbours "
-           "of the start (no numerical fracture).",
-           "fluid");
+           "of the start (no numerical fracture). `by_material`: `fluid` for `tait` and `linear`, "
+           "`gas` for other equations of state, `total_lagrangian` for strength alone, `solid` for both together and "
+           "for what elements become.",
+           "by_material");
   s.text("material", "Material of every block that is not named under `blocks`.");
   add_start(s);
   s.named("blocks", block_schema(), "Materials, walls and states at the start block by block.");

@@ -155,8 +155,9 @@ std::vector<SkipCount> Sph::skips() const {
   if (!options_.always_search)
     skips.push_back({"neighbour lists kept, as the skin was not used up", steps_ - renewals_});
   if (mesh_->comm.size() > 1)
-    skips.push_back({"parts of particles kept, as a new balance would not have paid",
-                     decomposition_->counts().renewals - decomposition_->counts().rebalances});
+    skips.push_back(
+        {"parts of particles kept, as a new balance would not have paid",
+         std::max<std::int64_t>(decomposition_->counts().renewals - decomposition_->counts().rebalances, 0)});
   return skips;
 }
 

@@ -83,7 +83,8 @@ std::string inline_example(const Key& key) {
 /// "my_material" for a block in `materials`.
 std::string block_name(const Key& key) {
   const bool plural = key.name.size() > 2 && key.name.back() == 's' && key.name[key.name.size() - 2] != 's';
-  return "my_" + (plural ? key.name.substr(0, key.name.size() - 1) : key.name);
+  const std::size_t ending = key.name.ends_with("shes") ? 2 : 1;  // meshes, but materials
+  return "my_" + (plural ? key.name.substr(0, key.name.size() - ending) : key.name);
 }
 
 /// The lines of a block below the key that holds it.

@@ -27,6 +27,7 @@ refused() {
 refused "has no block 'wals', did you mean 'walls'" --set components.flow.blocks.wals="{material: water}" || exit 1
 refused "open: there is no side 'y_mx'" --set meshes.tank.bodies.walls.open="[y_mx]"
 refused "either periodic or with symmetry planes" --set components.flow.periodic.x="[0, 4]" --set components.flow.symmetry_planes.x_min=0
+refused "no stiffness without energy" --set components.flow.formulation=fluid --set materials.water.equation_of_state='{type: ideal_gas, gamma: 1.4}'
 refused "fluid: the formulation is 'gas'" --set components.flow.formulation=gas --set components.flow.fluid.density_diffusion=0.2
 refused "spacing: has no value; expected a length" --set meshes.tank.spacing=null
 echo "1 passed, 0 failed"
