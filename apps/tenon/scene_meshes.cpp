@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "apps/tenon/scene_particles.hpp"
+#include "apps/tenon/scene_shapes.hpp"
 #include "framework/mesh/generators.hpp"
 #include "framework/mesh/mesh.hpp"
 #include "framework/mesh/renumber.hpp"
@@ -168,6 +169,7 @@ std::function<MeshData()> recipe(const Value& v, const std::string& folder, std:
     return [s] { return generate(s); };
   }
   if (type == "particles") return particle_recipe(v, folder, earlier, diagnostics);
+  if (type == "can" || type == "projectile" || type == "foam") return shape_recipe(v, diagnostics);
   if (type == "annulus") return [s = annulus(v, diagnostics)] { return generate(s); };
   PlateShape s;
   s.length_x = v.real("length_x"), s.length_y = v.real("length_y");
@@ -188,15 +190,15 @@ Numbering numbering_of(const Value& v) {
 }  // namespace
 
 std::vector<std::pair<std::string, scene::Schema>> mesh_variants() {
-  std::vector<std::pair<std::string, scene::Schema>> variants{{"file", file_schema()},
-                                                              {"box", box_schema()},
-                                                              {"cylinder", cylinder_schema()},
-                                                              {"sphere", sphere_schema()},
-                                                              {"annulus", annulus_schema()},
-                                                              {"plate", plate_schema()},
-                                                              {"particles", particle_mesh_schema()}};
+  std::vector<std::pair<std::string, scene::Schema>> variants{
+      {"file", file_schema()},         {"box", box_schema()},
+      {"cylinder", cylinder_schema()}, {"sphere", sphere_schema()},
+      {"annulus", annulus_schema()},   {"plate", plate_schema()},
+      {"can", can_schema()},           {"projectile", projectile_schema()},
+      {"foam", foam_schema()},         {"particles", particle_mesh_schema()}};
   for (auto& [name, schema] : variants) {
     if (name == "particles") continue;
+    add_placement(schema);
     schema.choice(
         "numbering", {"automatic", "file", "hilbert", "shuffled"},
         "Order of nodes and elements in memory: `automatic` puts them along a Hilbert curve where the file's order "
@@ -215,13 +217,16 @@ SceneMesh make_mesh(const Communicator& comm, const std::string& name, const sce
   if (block.text("type") == "particles") mesh.dimension = static_cast<int>(block.integer("dimension"));
   const std::size_t before = diagnostics.errors().size();
   const std::function<MeshData()> make = recipe(block, folder, earlier, diagnostics);
+  const bool particles = block.text("type") == "particles";
+  const std::function<void(MeshData&)> place = particles ? [](MeshData&) {} : placement(block, diagnostics);
   if (diagnostics.errors().size() > before) return mesh;
   comm.vote_on_root([&] {
     mesh.data = make();
+    place(mesh.data);
     check(mesh.data);
     add_derived_sets(mesh.data);
     // Particles are put in order as they move; those of elements stand in the order of these.
-    if (block.text("type") != "particles") mesh.numbering = described(renumber(mesh.data, numbering_of(block)));
+    if (!particles) mesh.numbering = described(renumber(mesh.data, numbering_of(block)));
     mesh.summary = summarise(mesh.data);
   });
   mesh.summary = broadcast_summary(comm, mesh.summary);

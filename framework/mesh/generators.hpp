@@ -64,6 +64,49 @@ struct PlateShape {
 };
 MeshData generate(const PlateShape& shape);
 
+/// Half of a closed can (y >= 0) that stands on z = 0: a tube and two lids of the same thickness, mitred where they
+/// meet; each lid has a hole in its middle. Elements count (axial + 2 lid) around through.
+struct CanShape {
+  double radius = 1, length = 1, thickness = 0.1, hole = 0.2;  ///< m; `radius` and `length` outside, `hole` a radius
+  int circumferential = 20;                                    ///< elements around half a turn
+  int axial = 20, lid = 5;                                     ///< elements along the tube, and from a hole to the rim
+  int through = 3;                                             ///< elements through the thickness
+};
+/// Block "can"; sets "bottom" (z = 0), "top", "outer" (the tube), "symmetry" (y = 0).
+MeshData generate(const CanShape& shape);
+
+/// Projectile with an ogival nose, about z, flying along -z: the tail at z = length, the tip of the ogive at z = 0, but
+/// blunted where the ogive is `tip` times the radius wide. With `wall` > 0 it is a case around a filling, which has
+/// nodes of its own, so that the two touch and part.
+struct ProjectileShape {
+  double radius = 1, length = 10;  ///< m
+  double caliber = 3;              ///< radius of the ogive over the diameter, at least 0.5
+  double tip = 0.35;               ///< of the radius, above 0 and below 1
+  int core = 4, shell = 2;         ///< elements across the core square, and from it to the surface
+  int axial = 16, nose = 8;        ///< layers of the shaft and of the nose
+  double wall = 0;                 ///< m; thickness of the case, 0: solid
+  int wall_elements = 1;           ///< of the `shell` elements, those of the case
+  int base_layers = 2;             ///< layers of the shaft that close the case behind
+  int filled_nose = 0;             ///< layers of the nose that are filled
+};
+/// Block "projectile", or "case" and "filling"; sets "tip", "tail", "outer".
+MeshData generate(const ProjectileShape& shape);
+
+/// Open-cell foam: struts along the edges of Kelvin's cells (truncated octahedra on a body-centred cubic lattice) made
+/// of bricks whose surface nodes are drawn to the round strut. What hangs on nothing is left out.
+struct FoamShape {
+  double cell = 1;                    ///< m; edge of the cubic cell of the lattice, which holds two of Kelvin's
+  double strut_radius = 0.1;          ///< m
+  std::array<int, 3> cells{2, 2, 2};  ///< along x, y, z, from the origin
+  int elements = 12;                  ///< bricks along the edge of a cubic cell
+  /// Random shift of the places of the lattice, up to this fraction of a cell, < 0.3; as BoxShape::distortion, by the
+  /// number of the corner of the cubic cells, linear between them; none at both ends along z.
+  double irregularity = 0;
+  std::uint64_t seed = 1;
+};
+/// Block "foam"; sets "bottom" (z = 0), "top".
+MeshData generate(const FoamShape& shape);
+
 /// Particles on a lattice that fill a shape: one block "particles" of them, one node each, and Mesh::volumes.
 struct ParticleBox {
   Vec3 low{0, 0, 0}, high{1, 1, 1};       ///< m; along the axes that a run leaves out, both are the place

@@ -52,6 +52,17 @@ Anchors, aliases and merge keys of YAML (`&name`, `*name`, `<<: *name`) save rep
 **Changes from the command line.** `--set key.path=value` replaces or adds a value: `--set end_time="5 us"`. The path has
 a dot between keys and names; a number, counted from 0, is an entry of a list.
 
+**Parameters.** A scene may begin with numbers of its own, which `$(formula)` then stands for anywhere in its values:
+
+```yaml
+parameters: {doublings: 0, spacing: 2 mm}
+meshes:
+  bar: {type: box, high: [$(10*spacing) m, 10 mm, 10 mm], elements: [$(5*2^doublings), 5, 5]}
+```
+
+One `--set parameters.doublings=3` then changes all that hangs on it. A quantity is seen by formulas in SI. A parameter
+may itself be a formula of those above it. Formulas are those of functions of time, without t, x, y, z.
+
 )text";
 
 void collect(const Schema& schema, const Section& around, std::vector<Section>& sections) {

@@ -58,6 +58,10 @@ std::optional<TreeNode> read_tree(const std::string& text, const std::string& fi
 /// Puts the values of --set into the tree.
 void apply_overrides(TreeNode& root, const std::vector<Override>& overrides, Diagnostics& diagnostics);
 
+/// Takes the block `parameters` out of the tree and puts the values of `$(formula)` in the place of these formulas.
+/// Whether all of them made sense; otherwise `diagnostics` has complaints.
+bool apply_parameters(TreeNode& root, Diagnostics& diagnostics);
+
 /// The user's words for a message: quoted, shortened, without control characters.
 std::string quoted(const std::string& text);
 

@@ -271,6 +271,100 @@ TEST(PlateGenerator, AreaAndEdges) {
   }
 }
 
+TEST(CanGenerator, CountsDoubleWithEachDirectionAndTheVolumeIsThatOfTheSheet) {
+  CanShape shape;
+  shape.radius = 0.1, shape.length = 0.25, shape.thickness = 0.005, shape.hole = 0.02;
+  EXPECT_EQ(generate(shape).elements(), 1800u);
+  shape.circumferential *= 2;
+  EXPECT_EQ(generate(shape).elements(), 3600u);
+  shape.axial *= 2, shape.lid *= 2;
+  EXPECT_EQ(generate(shape).elements(), 7200u);
+  shape.through *= 2;
+  const MeshData mesh = generate(shape);
+  EXPECT_EQ(mesh.elements(), 14400u);
+  // Half of the prism of 80 sides whose corners lie on the circles.
+  const double half_section = 0.5 * 80 * std::sin(2 * std::numbers::pi / 80) / 2;
+  const double exact = half_section * (2 * (0.1 * 0.1 - 0.02 * 0.02) * 0.005 + (0.01 - 0.095 * 0.095) * (0.25 - 0.01));
+  EXPECT_NEAR(volume(mesh), exact, 1e-15);
+  EXPECT_EQ(side_set(mesh, "outer").sides.size(), 40u * 40);
+  EXPECT_EQ(side_set(mesh, "bottom").sides.size(), 40u * 10);
+  EXPECT_EQ(side_set(mesh, "symmetry").sides.size(), 2u * 6 * (40 + 2 * 10));
+  EXPECT_EQ(skin(mesh).size(), 2u * 40 * 60 + 2 * 6 * 60 + 2 * 40 * 6);
+}
+
+TEST(ProjectileGenerator, HasTheShapeOfTheOgiveAndParts) {
+  ProjectileShape shape;
+  shape.radius = 6.45, shape.length = 88.9, shape.core = 8, shape.shell = 6, shape.nose = 24, shape.axial = 60,
+  shape.tip = 0.2;
+  const MeshData solid = generate(shape);
+  // Volume of the pointed ogive: pi int r^2 dz, r = sqrt(arc^2 - s^2) - (arc - R); the tip that is missing is small.
+  const double arc = 6 * 6.45, base = 6.45 * std::sqrt(11.0);
+  double nose = 0;
+  for (int i = 0; i < 10000; ++i) {
+    const double s = base * (i + 0.5) / 10000, r = std::sqrt(arc * arc - s * s) - (arc - 6.45);
+    nose += std::numbers::pi * r * r * base / 10000;
+  }
+  const double exact = nose + std::numbers::pi * 6.45 * 6.45 * (88.9 - base);
+  EXPECT_NEAR(volume(solid) / exact, 1, 0.015);  // sides of a polygon: 0.6 %
+  for (const GlobalId n : node_set(solid, "outer").nodes) {
+    const Vec3& x = solid.coordinates[static_cast<std::size_t>(n)];
+    const double s = std::max(base - x[2], 0.0);
+    EXPECT_NEAR(std::hypot(x[0], x[1]), std::sqrt(arc * arc - s * s) - (arc - 6.45), 1e-12);
+  }
+  EXPECT_GT(worst_scaled_jacobian(solid), 0.2);
+
+  shape.wall = 1.5, shape.wall_elements = 2, shape.filled_nose = 8;
+  const MeshData filled = generate(shape);
+  ASSERT_EQ(filled.blocks.size(), 2u);
+  EXPECT_EQ(filled.elements(), solid.elements());
+  EXPECT_EQ(filled.blocks[1].size(), (8u * 8 + 4 * 8 * 4) * (60 - 2 + 8));
+  const std::set<GlobalId> of_case(filled.blocks[0].connectivity.begin(), filled.blocks[0].connectivity.end());
+  std::set<Vec3> corners_of_case;
+  for (const GlobalId n : of_case) corners_of_case.insert(filled.coordinates[static_cast<std::size_t>(n)]);
+  std::size_t touching = 0;
+  for (const GlobalId n :
+       std::set<GlobalId>(filled.blocks[1].connectivity.begin(), filled.blocks[1].connectivity.end())) {
+    EXPECT_EQ(of_case.count(n), 0u);
+    touching += corners_of_case.count(filled.coordinates[static_cast<std::size_t>(n)]);
+  }
+  EXPECT_EQ(touching, 32u * 67 + 2 * (9 * 9 + 3 * 32));  // around and at both ends
+  EXPECT_EQ(side_set(filled, "tail").sides.size(), 8u * 8 + 4 * 8 * 6);
+}
+
+TEST(FoamGenerator, IsOneLatticeOfStruts) {
+  FoamShape shape;
+  shape.cell = 2, shape.strut_radius = 0.2, shape.cells = {2, 1, 3};
+  const MeshData mesh = generate(shape);
+  // Edges of Kelvin's cells are equally far from three points of the body-centred lattice, so what lies within a radius
+  // of an edge is from the third one at most two radii farther than from the first.
+  double filled = 0;
+  for (GlobalId e = 0; e < static_cast<GlobalId>(mesh.elements()); ++e) {
+    const std::vector<Vec3> x = corners(mesh, e);
+    filled += element_measure(ElementKind::hex8, x);
+    Vec3 middle{0, 0, 0};
+    for (const Vec3& corner : x) middle = middle + 0.125 * corner;
+    std::vector<double> distances;
+    for (int k = -2; k <= 8; ++k)
+      for (int j = -2; j <= 4; ++j)
+        for (int i = -2; i <= 6; ++i)
+          if ((i - j) % 2 == 0 && (j - k) % 2 == 0) distances.push_back(norm(middle - Vec3{1.0 * i, 1.0 * j, 1.0 * k}));
+    std::sort(distances.begin(), distances.end());
+    EXPECT_LT(distances[2] - distances[0], 2 * 0.2 + 0.05);
+  }
+  // 24 struts a cell, of the length cell/sqrt(8); they share what lies in the joints.
+  const double struts = 24 * std::numbers::pi * 0.1 * 0.1 / std::sqrt(8.0);
+  EXPECT_GT(filled / 48, 0.5 * struts);
+  EXPECT_LT(filled / 48, 0.9 * struts);
+  for (const char* end : {"bottom", "top"}) EXPECT_GT(side_set(mesh, end).sides.size(), 50u);
+
+  shape.irregularity = 0.15;
+  const MeshData shifted = generate(shape);
+  EXPECT_EQ(shifted.blocks[0].connectivity, mesh.blocks[0].connectivity);
+  for (const char* end : {"bottom", "top"})
+    for (const GlobalId n : node_set(shifted, end).nodes)
+      EXPECT_EQ(shifted.coordinates[static_cast<std::size_t>(n)][2], end == std::string("top") ? 6 : 0);
+}
+
 TEST(Tetrahedralise, FitsHoweverTheElementsAreTurned) {
   // Random node numbers turn the diagonals of neighbouring bricks in every possible way.
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
@@ -340,6 +434,21 @@ TEST(Generators, RefuseShapesThatMakeNoSense) {
   box = {};
   box.elements = {12, 12, 12}, box.distortion = 0.499;
   EXPECT_EQ(code(box), ExitCode::geometry);
+  CanShape can;
+  can.hole = 1;
+  EXPECT_EQ(code(can), ExitCode::usage);
+  ProjectileShape projectile;
+  projectile.tip = 1;
+  EXPECT_EQ(code(projectile), ExitCode::usage);
+  projectile = {};
+  projectile.length = 3;
+  EXPECT_EQ(code(projectile), ExitCode::usage);
+  FoamShape foam;
+  foam.irregularity = 0.3;
+  EXPECT_EQ(code(foam), ExitCode::usage);
+  foam = {};
+  foam.strut_radius = 0.01;
+  EXPECT_EQ(code(foam), ExitCode::usage);
   CylinderShape cylinder;
   cylinder.fraction = 0.5;
   EXPECT_EQ(code(cylinder), ExitCode::usage);

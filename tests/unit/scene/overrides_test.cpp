@@ -101,5 +101,46 @@ TEST(Overrides, ValuesThatAreNoYaml) {
             (Errors{"--set end_time: more than 50 brackets open at once"}));
 }
 
+constexpr const char* parametrised = R"(parameters:
+  n: 2
+  size: 3 mm
+  half: $(size/2)
+end_time: $(10*(n + 1)) us
+components:
+  body:
+    type: mechanics
+    mesh: bar$(n)
+    initial_velocity: [$(half), 0, "$(-max(n, 5)) km/s"]
+output: {checkpoint: {every: $(1e5*n)}}
+)";
+
+TEST(Parameters, StandForNumbersAnywhere) {
+  for (const int n : {2, 7}) {
+    scene::Diagnostics diagnostics;
+    const scene::Value root =
+        scene::parse_scene(parametrised, "s", {{"parameters.n", std::to_string(n)}}, rich_schema(), diagnostics);
+    ASSERT_EQ(diagnostics.errors(), Errors{});
+    EXPECT_DOUBLE_EQ(root.real("end_time"), 1e-5 * (n + 1));
+    const scene::Value body = root.entries("components")[0].second;
+    EXPECT_EQ(body.text("mesh"), "bar" + std::to_string(n));
+    EXPECT_EQ(body.vector("initial_velocity"), (Vec3{1.5e-3, 0, n == 2 ? -5000.0 : -7000.0}));
+    EXPECT_EQ(root.child("output").child("checkpoint").integer("every"), n * 100000);
+  }
+}
+
+TEST(Parameters, ComplaintsNameTheFormula) {
+  EXPECT_EQ(complaints(parametrised, {{"parameters.n", "many"}}),
+            (Errors{"--set parameters.n: parameters.n: found 'many', expected a number or a quantity such as 2 mm"}));
+  EXPECT_EQ(complaints(parametrised, {{"parameters", "[1]"}}).size(), 6u);  // and the five formulas that know none
+  const Errors unknown = complaints(parametrised, {{"end_time", "$(2*m) us"}});
+  ASSERT_EQ(unknown.size(), 1u);
+  EXPECT_EQ(unknown[0].find("--set end_time: $(2*m): "), 0u) << unknown[0];
+  EXPECT_EQ(complaints(parametrised, {{"end_time", "$((2) us"}}),
+            (Errors{"--set end_time: '$((2) us': '$(' has no ')' that closes it"}));
+  EXPECT_EQ(complaints(parametrised, {{"end_time", "$(1/0) us"}}),
+            (Errors{"--set end_time: $(1/0) is inf, expected a finite number"}));
+  EXPECT_EQ(complaints(parametrised, {{"end_time", "$(2) bananas"}}).size(), 1u);
+}
+
 }  // namespace
 }  // namespace tenon::testing

@@ -1,0 +1,22 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# The scenes of the paper's experiments: their first steps are the same on 1, 2 and 3 ranks, to the bit, and the ledger closes.
+source "$(dirname "$0")/common.sh"
+first_steps() {
+  local name=$1
+  shift
+  for ranks in 1 2 3; do
+    run $ranks "$scenes/$name/scene.yaml" $name$ranks --set output.frames.every="1 s" --set output.checkpoint.every="1 s" "$@"
+    same_state ${name}1 $name$ranks
+    cmp ${name}1/history.csv $name$ranks/history.csv
+  done
+  awk -F, -v name="$name" '
+    NR == 1 { for (i = 1; i <= NF; ++i) column[$i] = i; next }
+    { error = $column["energy_error"]; if (error > worst) worst = error; rows++ }
+    END { printf "%s: greatest ledger error %.1e in %d rows\n", name, worst, rows; exit !(rows > 5 && worst <= 1e-11) }' ${name}1/history.csv
+}
+first_steps can-crush --set end_time="50 us" --set output.history.every="10 steps"
+# One parameter refines the can: eight times as many elements after three doublings.
+"$tenon" check "$scenes/can-crush/scene.yaml" --set parameters.doublings=3 >check.txt
+grep -q "mesh can: .* 14400 elements" check.txt && grep -q "mesh wall: .* 600 elements" check.txt || { cat check.txt; exit 1; }
+echo "1 passed, 0 failed"
