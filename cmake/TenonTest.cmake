@@ -21,6 +21,11 @@ function(tenon_test name)
   endif()
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   target_link_libraries(${name} PRIVATE ${T_ROOMS} tenon_test_support ${T_LIBRARIES})
+  target_precompile_headers(${name} REUSE_FROM tenon_test_support)
+  if(CCACHE_PROGRAM)  # which has to be told that the precompiled header is what its contents say
+    set_target_properties(${name} PROPERTIES CXX_COMPILER_LAUNCHER
+      "${CMAKE_COMMAND};-E;env;CCACHE_SLOPPINESS=pch_defines,time_macros;${CCACHE_PROGRAM}")
+  endif()
   foreach(ranks ${T_RANKS})
     add_test(NAME ${name}.np${ranks}
       COMMAND ${MPIEXEC_EXECUTABLE} --oversubscribe -n ${ranks} $<TARGET_FILE:${name}>
