@@ -123,7 +123,7 @@ class Fluid final : public Formulation {
   void describe(const SphBody& body) {
     const FluidOptions& fluid = c_.options.fluid;
     const double sound = undeformed_sound(body), density = body.material.density;
-    laws_.push_back({2 * fluid.density_diffusion * sound, {}, body.wall});
+    laws_.push_back({2 * fluid.density_diffusion * sound, {}, body.wall, sound, density});
     // The force of [Mon92] has alpha h c rho in the place of 2 (d + 2) times the viscosity [Mon05].
     const double of_material = body.material.viscosity.value_or(0);
     viscous_.push_back(body.wall ? 0 : of_material);

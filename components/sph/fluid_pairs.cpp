@@ -2,6 +2,8 @@
 // Compiled with fused multiplications: each pair goes through the same instructions wherever it is worked on.
 #include "components/sph/fluid_pairs.hpp"
 
+#include <numbers>
+
 #include "components/sph/kernel_choice.hpp"
 
 namespace tenon {
@@ -121,6 +123,18 @@ class FluidSums {
     }
   }
 
+  /// A particle that left its body has nobody whose motion would ever mend its density: where there are fewer
+  /// neighbours than a quarter of those all around, as in no corner of a body, it tends to that at rest, 1/s.
+  double relaxation(std::size_t i, const Self& self) const {
+    constexpr double ball = d == 3 ? 4.0 / 3 * std::numbers::pi : d == 2 ? std::numbers::pi : 2;
+    const FluidBody& body = pass_.bodies[static_cast<std::size_t>(pass_.particles.body[i])];
+    const double h = pass_.places[4 * i + 3], volume = records_[FluidRecord::size * i + 5];
+    double around = ball;
+    for (int n = 0; n < d; ++n) around *= K::support * h;
+    const double lonely = 1 - 4 * static_cast<double>(pass_.hits.count) * volume / around;
+    return lonely > 0 ? lonely * body.sound / h * (body.density - self.density) : 0;
+  }
+
   TENON_KERNEL void finish(std::size_t i, const Self& self, const Sums& sums) {
     double scale = K::sigma(d);
     if constexpr (plain) {
@@ -132,7 +146,7 @@ class FluidSums {
     const double over = 1 / self.density;
     const Vec3 pressure{over * all[2], over * all[4], over * all[6]},
         viscous{over * all[1], over * all[3], over * all[5]};
-    pass_.density_rate[i] = self.kind < 0 ? 0 : all[0];
+    pass_.density_rate[i] = self.kind < 0 ? 0 : all[0] + relaxation(i, self);
     pass_.pressure_acceleration.set(i, pressure);
     pass_.viscous_acceleration.set(i, viscous);
     pass_.acceleration.set(i, pressure + viscous);

@@ -28,6 +28,7 @@ struct FluidBody {
   double diffusion = 0;  ///< 2 delta c, m/s
   Vec3 hydrostatic{};    ///< gradient of density that gravity makes, kg/m^4
   bool wall = false;
+  double sound = 0, density = 0;  ///< of the material at rest, m/s and kg/m^3
 };
 
 /// Columns and laws of one pass over all pairs:

@@ -181,6 +181,22 @@ void ParticleDecomposition::sort() {
   permute(data_.home_node, order, 1, room32);
 }
 
+// A hot particle may cross a mirror and meet its own image. The images of those that it meets then are so much farther
+// from the plane; without them a pair would act on one of its particles only.
+double ParticleDecomposition::deepest_beyond_mirrors() const {
+  double deepest = 0;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const ParticleDomain::Axis& a = images_.domain().axes[c];
+    for (std::size_t i = 0; i < data_.owned() && !a.periodic && (a.low || a.high); ++i) {
+      const double x = data_.reference[3 * i + c];
+      if (!std::isfinite(x)) continue;
+      if (a.low) deepest = std::max(deepest, *a.low - x);
+      if (a.high) deepest = std::max(deepest, x - *a.high);
+    }
+  }
+  return images_.domain().open() ? 0 : comm_.max(deepest);
+}
+
 // A copy of each particle for every rank in whose part, or near it, the particle or an image of it is.
 void ParticleDecomposition::find_ghosts() {
   const std::size_t owned = data_.owned();
@@ -203,7 +219,7 @@ void ParticleDecomposition::find_ghosts() {
       rank.push_back(r), send.push_back(static_cast<LocalIndex>(i)), image.push_back(copy);
     }
   };
-  const double reach = reach_ + skin_;
+  const double reach = reach_ + skin_, reach_of_images = reach + deepest_beyond_mirrors();
   for (std::size_t i = 0; i < owned; ++i) {
     const Vec3 x = data_.reference.vec(i);
     if (!std::isfinite(x[0] + x[1] + x[2])) continue;
@@ -214,7 +230,7 @@ void ParticleDecomposition::find_ghosts() {
     }
     if (!inside) offer(i, x, reach, 0);
     if (!images_.domain().open())
-      images_.for_each(x, reach, [&](std::uint8_t copy) { offer(i, images_.place(x, copy), reach, copy); });
+      images_.for_each(x, reach_of_images, [&](std::uint8_t copy) { offer(i, images_.place(x, copy), reach, copy); });
   }
   any_ghosts_ = comm_.any(!send.empty());
   data_.resize(owned, 0);

@@ -68,6 +68,7 @@ class ParticleDecomposition {
   std::vector<int> by_present_parts() const;
   void migrate();
   void sort();
+  double deepest_beyond_mirrors() const;
   void find_ghosts();
   void search(bool again);
 

@@ -186,6 +186,8 @@ void refuse_idle_keys(const Value& value, const SphOptions& options, Diagnostics
   const std::string formulation = names[static_cast<std::size_t>(options.formulation)];
   if (value.has("fluid") && options.formulation != SphFormulation::fluid)
     diagnostics.error(value.where("fluid"), "fluid: the formulation is '" + formulation + "'; leave it out");
+  if (value.has("gas") && options.formulation != SphFormulation::gas)
+    diagnostics.error(value.where("gas"), "gas: the formulation is '" + formulation + "'; leave it out");
   if (value.has("solid") && options.formulation != SphFormulation::solid &&
       options.formulation != SphFormulation::total_lagrangian)
     diagnostics.error(value.where("solid"), "solid: the formulation is '" + formulation + "'; leave it out");
@@ -244,6 +246,13 @@ SphOptions read_sph(const Value& value, const MeshSummary& mesh, int dimension,
         chosen<Shifting, 3>(v.text("shifting"), {{{"none", Shifting::none},
                                                   {"shifting", Shifting::shifting},
                                                   {"transport_velocity", Shifting::transport_velocity}}});
+  }
+  if (value.has("gas")) {
+    using Density = GasOptions::Density;
+    const Value v = value.child("gas");
+    options.gas.density = chosen<Density, 2>(
+        v.text("density"), {{{"summation", Density::summation}, {"continuity", Density::continuity}}});
+    options.gas.greatest_smoothing = v.real("greatest_smoothing");
   }
   options.heat_conduction = value.flag("heat_conduction");
   if (value.has("solid")) {

@@ -123,6 +123,19 @@ Schema solid_schema() {
   return s;
 }
 
+Schema gas_schema() {
+  Schema s("Of `formulation: gas`.");
+  s.choice("density", {"summation", "continuity"},
+           "`summation` of the masses around, exact where there is matter on all sides; `continuity` by the divergence "
+           "of the velocity, for condensed matter with free surfaces.",
+           "summation");
+  s.quantity("greatest_smoothing", "1",
+             "Where a smoothing length that follows the density ends, over the greatest of the start: with more, "
+             "particles in thin gas see farther and cost more.",
+             "4", {1, 100, false, false});
+  return s;
+}
+
 Schema time_step_schema() {
   Schema s("Time step of the component.");
   s.quantity("cfl", "1", "Share of the smoothing length that a signal may cross in a step.", "0.25",
@@ -164,6 +177,7 @@ Schema sph_schema() {
              "Heat that flows across jumps of the energy of a gas: 0 none, 1 as much as [Pri08].", "0",
              {0, 10, false, false});
   s.object("fluid", fluid_schema(), "Of `formulation: fluid`.");
+  s.object("gas", gas_schema(), "Of `formulation: gas`.");
   s.object("solid", solid_schema(), "Of solids.");
   s.flag("heat_conduction", "Heat flows between particles that are near each other; materials need `thermal`.",
          "false");

@@ -18,7 +18,7 @@ namespace {
 struct Variant {
   std::vector<int> across{25, 50, 100, 200};
   std::string shifting = "transport_velocity", kernel = "wendland_c2";
-  double smoothing = 1.3, strength = 1, background = 0, diffusion = 0.1, end = 1;
+  double smoothing = 1.3, strength = 1, background = 0, diffusion = 0.1, end = 1, jitter = 0.2;
 };
 
 testing::SphScene scene_of(const Variant& variant, int across) {
@@ -31,6 +31,10 @@ testing::SphScene scene_of(const Variant& variant, int across) {
   scene.options.fluid.shifting_strength = variant.strength;
   scene.options.fluid.background_pressure = variant.background;
   scene.options.fluid.density_diffusion = variant.diffusion;
+  const double shake = variant.jitter / across;
+  scene.options.displaced = [shake](const Vec3& x) {
+    return shake * Vec3{testing::noise(x, 1), testing::noise(x, 2), 0};
+  };
   if (variant.kernel == "quintic_spline") scene.options.kernel = SphKernelKind::quintic_spline;
   if (variant.kernel == "wendland_c4") scene.options.kernel = SphKernelKind::wendland_c4;
   if (variant.kernel == "cubic_spline") scene.options.kernel = SphKernelKind::cubic_spline;
@@ -67,6 +71,7 @@ void add_taylor_green(CLI::App& app) {
   command->add_option("--strength", variant->strength, "of shifting, over what is usual");
   command->add_option("--background", variant->background, "pressure, Pa");
   command->add_option("--diffusion", variant->diffusion, "of density");
+  command->add_option("--jitter", variant->jitter, "of particles at the start, over the spacing");
   command->add_option("--end", variant->end, "s");
   command->callback([variant] { run(*variant); });
 }

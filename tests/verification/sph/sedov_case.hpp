@@ -2,6 +2,8 @@
 // Sedov's blast [Sed59]: unit energy at a point of cold gas of density one, gamma = 1.4.
 #pragma once
 
+#include <algorithm>
+
 #include "components/sph/smoothing_kernel.hpp"
 #include "shock_case.hpp"
 
@@ -32,37 +34,54 @@ inline SphScene sedov(int across, bool octant) {
 }
 
 struct SedovEnd {
-  double radius = 0;   ///< where the density is half way to its peak, outside, of means over shells
-  double peak = 0;     ///< greatest density of a particle
-  double kinetic = 0;  ///< share of the energy
+  double radius = 0;      ///< where the pressure is half way to its peak behind the front, of means over shells
+  double of_density = 0;  ///< likewise of the density
+  double peak = 0;        ///< greatest density of a particle
+  double kinetic = 0;     ///< share of the energy
 };
+
+inline constexpr double shell_of_sedov = 0.005;  // m
+
+/// Means over shells about the blast.
+inline std::vector<double> shell_means(const std::vector<double>& x, const std::vector<double>& value) {
+  constexpr std::size_t shells = 80;
+  std::vector<double> mean(shells), count(shells);
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    const double r = std::hypot(x[3 * i], x[3 * i + 1], x[3 * i + 2]);
+    const auto shell = static_cast<std::size_t>(r / shell_of_sedov);
+    if (shell < shells) mean[shell] += value[i], ++count[shell];
+  }
+  for (std::size_t s = 0; s < shells; ++s) mean[s] = count[s] > 0 ? mean[s] / count[s] : 0;
+  return mean;
+}
+
+/// Outermost radius where means are half way from `before` to the greatest that there is behind the front. The hot
+/// middle does not count.
+inline double half_way(const std::vector<double>& mean, double before) {
+  const auto behind = static_cast<std::ptrdiff_t>(0.8 * SedovSolution::radius / shell_of_sedov);
+  const double half = 0.5 * (before + *std::max_element(mean.begin() + behind, mean.end()));
+  double radius = 0;
+  for (std::size_t s = 1; s < mean.size(); ++s)
+    if (mean[s - 1] > half && mean[s] <= half)
+      radius = shell_of_sedov * (static_cast<double>(s) - 0.5 + (mean[s - 1] - half) / (mean[s - 1] - mean[s]));
+  return radius;
+}
 
 inline SedovEnd run_sedov(const SphScene& scene) {
   SphRun run(scene);
   run.run(scene.end);
   const double kinetic = run.row("kinetic_energy"), inner = run.row("internal_energy");
   EXPECT_LE(run.ledger_error(), 1e-11);
-  const std::vector<double> x = run.gathered("position"), rho = run.gathered("density");
+  const std::vector<double> x = run.gathered("position"), rho = run.gathered("density"), p = run.gathered("pressure");
   SedovEnd end;
   end.kinetic = kinetic / (kinetic + inner);
   if (communicator().rank() != 0) return end;
-  constexpr int shells = 80;
-  std::array<double, shells> sum{}, count{};
-  for (std::size_t i = 0; i < rho.size(); ++i) {
-    const double r = std::hypot(x[3 * i], x[3 * i + 1], x[3 * i + 2]);
-    end.peak = std::max(end.peak, rho[i]);
-    const auto shell = static_cast<std::size_t>(r / 0.4 * shells);
-    if (shell < shells) sum[shell] += rho[i], ++count[shell];
-  }
-  double greatest = 0;
-  const auto mean = [&](std::size_t s) { return count[s] > 0 ? sum[s] / count[s] : 0; };
-  for (std::size_t s = 0; s < shells; ++s) greatest = std::max(greatest, mean(s));
-  const double half = 0.5 * (1 + greatest);
-  for (std::size_t s = 1; s < shells; ++s)
-    if (mean(s - 1) > half && mean(s) <= half)
-      end.radius = 0.4 / shells * (static_cast<double>(s) - 0.5 + (mean(s - 1) - half) / (mean(s - 1) - mean(s)));
-  std::printf("Sedov: r2 %.4f peak %.3f (of means %.3f) kinetic %.4f; %lld steps\n", end.radius, end.peak, greatest,
-              end.kinetic, static_cast<long long>(run.simulation().steps()));
+  end.radius = half_way(shell_means(x, p), 0);
+  end.of_density = half_way(shell_means(x, rho), 1);
+  for (const double r : rho) end.peak = std::max(end.peak, r);
+  std::printf("Sedov: r2 %.4f (%+.2f %%; of the density %.4f) peak %.3f kinetic %.4f (%+.2f %%); %lld steps\n",
+              end.radius, 100 * (end.radius / SedovSolution::radius - 1), end.of_density, end.peak, end.kinetic,
+              100 * (end.kinetic / SedovSolution::kinetic - 1), static_cast<long long>(run.simulation().steps()));
   return end;
 }
 

@@ -10,21 +10,21 @@ namespace {
 TEST(TaylorGreen, Plain) {
   const Decay found = decay(25, FluidOptions::Shifting::none);
   EXPECT_NEAR(found.rate, TaylorGreen::rate, 0.15 * TaylorGreen::rate);
-  EXPECT_LE(found.error, 0.09);
+  EXPECT_LE(found.error, 0.075);
   EXPECT_LE(found.ledger, 1e-11);
 }
 
 TEST(TaylorGreen, Shifting) {
   const Decay found = decay(25, FluidOptions::Shifting::shifting);
   EXPECT_NEAR(found.rate, TaylorGreen::rate, 0.05 * TaylorGreen::rate);
-  EXPECT_LE(found.error, 0.08);
+  EXPECT_LE(found.error, 0.03);
   EXPECT_LE(found.ledger, 1e-11);
 }
 
 TEST(TaylorGreen, TransportVelocity) {
   const Decay found = decay(25, FluidOptions::Shifting::transport_velocity);
   EXPECT_NEAR(found.rate, TaylorGreen::rate, 0.05 * TaylorGreen::rate);
-  EXPECT_LE(found.error, 0.04);
+  EXPECT_LE(found.error, 0.03);
   EXPECT_LE(found.ledger, 1e-11);
 }
 
