@@ -2,6 +2,8 @@
 // Sedov's blast [Sed59]: unit energy at a point of cold gas of density one, gamma = 1.4.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 
 #include "components/sph/smoothing_kernel.hpp"
@@ -58,7 +60,7 @@ inline std::vector<double> shell_means(const std::vector<double>& x, const std::
 /// Outermost radius where means are half way from `before` to the greatest that there is behind the front. The hot
 /// middle does not count.
 inline double half_way(const std::vector<double>& mean, double before) {
-  const auto behind = static_cast<std::ptrdiff_t>(0.8 * SedovSolution::radius / shell_of_sedov);
+  const auto behind = static_cast<std::ptrdiff_t>(0.9 * SedovSolution::radius / shell_of_sedov);
   const double half = 0.5 * (before + *std::max_element(mean.begin() + behind, mean.end()));
   double radius = 0;
   for (std::size_t s = 1; s < mean.size(); ++s)

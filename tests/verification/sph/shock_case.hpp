@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "sph_case.hpp"
+#include "fluid_case.hpp"
 
 namespace tenon::testing {
 
@@ -22,20 +22,6 @@ inline MaterialDescription ideal_gas(double density, double gamma) {
   equation.law = IdealGas{gamma, 0};
   material.equation_of_state = equation;
   return material;
-}
-
-/// A function of the place at the start.
-class PlaceFunction final : public Formula {
- public:
-  explicit PlaceFunction(std::function<double(const Vec3&)> function) : function_(std::move(function)) {}
-  double value(double, const Vec3& x) const override { return function_(x); }
-
- private:
-  std::function<double(const Vec3&)> function_;
-};
-
-inline SpaceTimeFunction of_place(std::function<double(const Vec3&)> function) {
-  return SpaceTimeFunction::formula(std::make_shared<PlaceFunction>(std::move(function)));
 }
 
 /// Particles `spacing` apart in a box; 1: along x, 2: without z.
