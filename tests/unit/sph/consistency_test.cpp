@@ -116,5 +116,29 @@ TEST(Consistency, PairsAreThoseOfABruteSearch) {
   EXPECT_GT(found.size(), 20000u);
 }
 
+/// Cold gas rushes through a mirror, and through its own image: each pair still acts on both of its particles.
+TEST(Consistency, PairsBeyondAMirrorActOnBoth) {
+  SphScene scene;
+  ParticleBox box;
+  box.particles = {8, 4, 4}, box.high = {0.4, 0.2, 0.2};
+  scene.mesh = particle_bodies({{"gas", generate(box)}});
+  SphBody gas = body_of("gas", liquid(1, 1));
+  gas.material.equation_of_state->law = IdealGas{1.4, 0};
+  gas.initial_energy = SpaceTimeFunction::constant(0.01);
+  gas.initial_velocity[0] = SpaceTimeFunction::constant(-1);
+  scene.options.bodies = {gas};
+  scene.options.formulation = SphFormulation::gas;
+  scene.options.artificial_viscosity.alpha = scene.options.artificial_viscosity.beta = 0;
+  scene.options.domain.axes[0].low = 0;
+  scene.options.displaced = [](const Vec3& x) { return 0.01 * Vec3{hash(x, 41), hash(x, 57), hash(x, 73)}; };
+  SphRun run(scene);
+  run.run(0.3);
+  double beyond = 0;
+  const ParticleData& p = run.particles();
+  for (std::size_t i = 0; i < p.owned(); ++i) beyond = std::max(beyond, -p.position[3 * i]);
+  EXPECT_GT(run.comm().max(beyond), 0.15);  // a support and a skin
+  EXPECT_LE(run.ledger_error(), 1e-11);
+}
+
 }  // namespace
 }  // namespace tenon::testing
