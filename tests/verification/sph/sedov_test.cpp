@@ -10,7 +10,7 @@ namespace {
 TEST(Sedov, Octant) {
   const SedovEnd end = run_sedov(sedov(24, true));
   if (communicator().rank() != 0) return;
-  EXPECT_NEAR(end.radius, SedovSolution::radius, 0.1 * SedovSolution::radius);
+  EXPECT_NEAR(end.radius, SedovSolution::radius, 0.04 * SedovSolution::radius);
   EXPECT_GE(end.peak, 1.9);
   EXPECT_NEAR(end.kinetic, SedovSolution::kinetic, 0.03 * SedovSolution::kinetic);
 }
