@@ -26,6 +26,7 @@ struct PlanArguments {
   std::vector<int> ranks;             ///< to predict for; empty: only what is here
   std::vector<std::string> machines{"here"}, decompositions{"own"};
   std::string csv;                    ///< file for the predictions; empty: none
+  std::string until;                  ///< time to which steps are taken before the trial, as "1 ms"; empty: none
   std::int64_t after = 0, trial = 0;  ///< steps before the trial, and of it (0: a second)
 };
 

@@ -54,6 +54,7 @@ void add_plan_options(CLI::App& plan, tenon::PlanArguments& arguments) {
   plan.add_option("--csv", arguments.csv, "Write the prediction, a row per phase");
   plan.add_option("--after", arguments.after, "Run so many steps first, for a state that stands for the run")
       ->check(CLI::NonNegativeNumber);
+  plan.add_option("--until", arguments.until, "Run to this time first, as '0.1 ms'");
   plan.add_option("--trial", arguments.trial, "Measure so many steps (default: as many as fit in a second)")
       ->check(CLI::NonNegativeNumber);
   plan.footer(

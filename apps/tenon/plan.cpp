@@ -78,7 +78,7 @@ void plan_scene(const Communicator& comm, const PlanArguments& arguments) {
     maps += coupling->memory();
   }
   const double duration = simulation.end_time() - simulation.start_time();
-  const Trial trial = try_steps(simulation, {arguments.after, arguments.trial});
+  const Trial trial = try_steps(simulation, trial_options(arguments));
   const double done = simulation.time() - simulation.start_time();
   const double predicted = done > 0 ? static_cast<double>(simulation.steps()) * duration / done : 0.0;
   print_skips(simulation);

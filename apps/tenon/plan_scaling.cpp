@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <numeric>
+#include <stdexcept>
 
 #include "apps/tenon/scaling_machine.hpp"
 #include "apps/tenon/scaling_parts.hpp"
 #include "apps/tenon/scaling_table.hpp"
 #include "components/contact/contact.hpp"
 #include "components/sph/sph.hpp"
+#include "framework/scene/schema.hpp"
 
 namespace tenon {
 
@@ -91,7 +93,19 @@ StepLoads loads_of(BuiltScene& built, const std::vector<MeshParts>& meshes, cons
 
 }  // namespace
 
+TrialOptions trial_options(const PlanArguments& arguments) {
+  TrialOptions options{arguments.after, 0, arguments.trial};
+  if (arguments.until.empty()) return options;
+  try {
+    options.until = scene::parse_quantity(arguments.until, "s");
+  } catch (const std::invalid_argument& problem) {
+    throw Error(ExitCode::usage, std::string("plan --until: ") + problem.what());
+  }
+  return options;
+}
+
 void check_plan(const Communicator& comm, const PlanArguments& arguments) {
+  trial_options(arguments);
   if (arguments.ranks.empty()) return;
   if (comm.size() > 1) throw Error(ExitCode::usage, "plan --ranks: decomposes in one process; start it without mpirun");
   for (const std::string& name : arguments.machines) find_machine(name);

@@ -8,6 +8,9 @@
 
 namespace tenon {
 
+/// Of the steps to be measured. Throws Error(usage).
+TrialOptions trial_options(const PlanArguments& arguments);
+
 /// Collective. Refuses what could not be planned, before anything is read. Throws Error(usage).
 void check_plan(const Communicator& comm, const PlanArguments& arguments);
 

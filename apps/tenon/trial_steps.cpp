@@ -59,6 +59,7 @@ double mean(const Communicator& comm, double mine) {
 Trial try_steps(Simulation& simulation, const TrialOptions& options) {
   const Communicator& comm = simulation.comm();
   for (std::int64_t k = 0; k < options.after && !simulation.done(); ++k) simulation.step();
+  while (simulation.time() < options.until && !simulation.done()) simulation.step();
   const auto start = std::chrono::steady_clock::now();
   const double processor_start = processor_time();
   const auto elapsed = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };

@@ -12,6 +12,7 @@ namespace tenon {
 
 struct TrialOptions {
   std::int64_t after = 0;  ///< steps before those that are measured
+  double until = 0;        ///< s: and those to this time
   std::int64_t steps = 0;  ///< measured; 0: as many as fit in a second
 };
 

@@ -1,0 +1,167 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What all experiments share: running Tenon, reading its tables, and the sections of docs/experiments.md."""
+import csv
+import json
+import os
+import re
+import subprocess
+from dataclasses import dataclass, field
+from pathlib import Path
+
+root = Path(__file__).resolve().parents[2]
+scenes = root / "apps" / "scenes"
+out = root / "out" / "experiments"
+document = root / "docs" / "experiments.md"
+order = ["figure3", "table1", "decompositions", "skips", "scaling"]
+tenon = plot = None
+environment = dict(os.environ)
+
+heading = """# Experiments
+
+What the paper measured, measured again: `scripts/reproduce [figure3|table1|decompositions|skips|scaling|all] [--full]` makes each section from runs and from
+`tenon plan --ranks`. A predicted step is the sum over its phases of the slowest rank's work, messages (each its latency, and its bytes over the bandwidth, nothing
+overlapped) and reductions (one latency for each doubling of the ranks). Work, copies, messages and bytes are counted from decompositions for that many ranks, made in one
+process by the code that a run uses; what a unit of work costs is measured by steps of the same scene on one core.
+
+| machine | latency | bandwidth of a rank | work |
+| --- | --- | --- | --- |
+| here | 1 us (assumed, shared memory) | 5 GB/s (assumed) | as measured |
+| tflops: Sandia/Intel TFLOPS, 1997 | 20 us (assumed) | 310 MB/s (assumed) | 100 times as slow (146 MFLOPS of LINPACK a processor: 1.338 TFLOPS on 9,152) |
+| cluster: today | 1.5 us (assumed) | 10 GB/s (assumed) | as measured here |
+"""
+
+
+def prepare(build):
+    """Finds the programs and lets Open MPI run as the other scripts do."""
+    global tenon, plot
+    folder = (root / build).resolve()
+    tenon, plot = folder / "tenon", folder / "tenon_plot_table"
+    if not tenon.exists():
+        raise SystemExit(f"{tenon}: is not there; build it first: scripts/setup tenon tenon_plot_table")
+    out.mkdir(parents=True, exist_ok=True)
+    for line in (root / "scripts" / "mpi-environment").read_text().splitlines():
+        if line.startswith("export "):
+            environment.update(word.split("=", 1) for word in line[len("export "):].split() if "=" in word)
+
+
+def run(arguments, ranks=1, log=None):
+    """Runs a program and returns what it prints; with mpirun on more ranks."""
+    command = [str(a) for a in arguments]
+    if ranks > 1:
+        command = ["mpirun", "--oversubscribe", "-n", str(ranks), *command]
+    print("  " + " ".join(command).replace(str(root) + "/", ""), flush=True)
+    done = subprocess.run(command, env=environment, cwd=out, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    if log:
+        (out / log).write_text(done.stdout)
+    if done.returncode:
+        raise SystemExit(done.stdout[-3000:] + f"\nfailed: {' '.join(command)}")
+    return done.stdout
+
+
+def settings(values):
+    return [word for key, value in values.items() for word in ("--set", f"{key}={value}")]
+
+
+@dataclass
+class Trial:
+    """What `tenon plan` measured, per step."""
+    clock: float
+    processor: float
+    phases: dict = field(default_factory=dict)
+    counts: dict = field(default_factory=dict)
+
+
+def read_trial(text):
+    match = re.search(r"measured per step of \d+ on \d+ ranks: (\S+) s by the clock, (\S+) s of the processor", text)
+    trial = Trial(float(match[1]), float(match[2]))
+    for name, seconds in re.findall(r"^  (\S.*?) +(\d\.\d+e[+-]\d+) s$", text, re.M):
+        trial.phases[name] = float(seconds)
+    for name, count in re.findall(r"^  (\S.*?) +(\d+\.\d{4})$", text, re.M):
+        trial.counts[name] = float(count)
+    return trial
+
+
+def plan(scene, name, values, ranks=(), machines=("here",), decompositions=("own",), until=None, after=0, trial=20, on=1):
+    """`tenon plan` of a scene: what was measured, and the rows of the prediction."""
+    table = out / f"{name}.csv"
+    command = [tenon, "plan", scenes / scene / "scene.yaml", *settings(values), "--trial", trial, "--after", after]
+    if until:
+        command += ["--until", until]
+    if ranks:
+        command += ["--ranks", ",".join(map(str, ranks)), "--machine", ",".join(machines), "--decomposition", ",".join(decompositions), "--csv", table]
+    text = run(command, on, f"{name}.txt")
+    rows = []
+    if ranks:
+        with open(table) as file:
+            for row in csv.DictReader(file):
+                rows.append({k: v if k in ("machine", "decomposition", "group", "phase") else float(v) for k, v in row.items()})
+    return read_trial(text), rows, text
+
+
+def seconds(rows, machine, ranks, decomposition="own", groups=None, phases=None):
+    """Predicted seconds of a step, of some groups or of phases that end with one of these words."""
+    return sum(r["seconds"] for r in rows if r["machine"] == machine and r["ranks"] == ranks and r["decomposition"] == decomposition
+               and (groups is None or r["group"] in groups) and (phases is None or r["phase"].endswith(phases)))
+
+
+def one(rows, phase, ranks, decomposition="own", machine=None):
+    """The row of a phase."""
+    for r in rows:
+        if r["phase"].endswith(phase) and r["ranks"] == ranks and r["decomposition"] == decomposition and machine in (None, r["machine"]):
+            return r
+    raise KeyError(phase)
+
+
+def balance(row):
+    return row["work_max"] / row["work_mean"] if row["work_mean"] else 1.0
+
+
+def copies(row, ranks):
+    """How often an item is worked on."""
+    return row["work_mean"] * ranks / row["work_whole"] if row["work_whole"] else 1.0
+
+
+def simulate(scene, name, values, ranks=1):
+    """`tenon run` without frames: its summary, and the user seconds of all ranks."""
+    folder = out / name
+    before = os.times()
+    run([tenon, "run", scenes / scene / "scene.yaml", "-o", folder, *settings(values)], ranks, f"{name}.txt")
+    after = os.times()
+    summary = json.loads((folder / "summary.json").read_text())
+    return summary, after.children_user - before.children_user, folder
+
+
+def table(head, rows):
+    lines = ["| " + " | ".join(head) + " |", "| " + " | ".join("---" for _ in head) + " |"]
+    return "\n".join(lines + ["| " + " | ".join(str(cell) for cell in row) + " |" for row in rows]) + "\n"
+
+
+def draw(name, rows, width=1600, height=600):
+    """A picture of (panel, x_title, y_title, line, x, y, guide) rows; returns its place in the document."""
+    path = out / f"{name}-plot.csv"
+    with open(path, "w") as file:
+        writer = csv.writer(file)
+        writer.writerow(["panel", "x_title", "y_title", "line", "x", "y", "guide"])
+        writer.writerows(rows)
+    picture = root / "docs" / "images" / f"experiments-{name}.png"
+    picture.parent.mkdir(exist_ok=True)
+    run([plot, path, picture, width, height])
+    return f"![{name}](images/{picture.name})\n"
+
+
+def machine():
+    """Cores, CPU and compiler in a line."""
+    cpu = re.search(r"model name\s*: (.*)", Path("/proc/cpuinfo").read_text())
+    version = " ".join(subprocess.run([tenon, "--version"], text=True, capture_output=True, env=environment).stdout.split("\n")).strip()
+    load = os.getloadavg()[0]
+    return f"Measured on {os.cpu_count()} cores of {cpu[1] if cpu else 'an unknown processor'}, load {load:.1f}; {version}."
+
+
+def write_section(name, text):
+    """Replaces the section of an experiment in the document."""
+    sections = {}
+    if document.exists():
+        sections = dict(re.findall(r"<!-- (\w+) -->\n(.*?)<!-- end -->\n", document.read_text(), re.S))
+    sections[name] = text.rstrip() + "\n\n" + machine() + "\n"
+    body = "\n".join(f"<!-- {key} -->\n{sections[key]}<!-- end -->\n" for key in order if key in sections)
+    document.write_text(heading + "\n" + body)

@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The argument itself: one static decomposition, slices, and separate bisections, side by side."""
+import re
+
+from common import balance, copies, one, plan, seconds, simulate, table
+
+names = ("static", "slices", "own")
+
+
+def counted(scene, values, until, ranks):
+    _, rows, _ = plan(scene, f"decompositions-{scene}", values, ranks, ("cluster",), names, until=until, trial=40)
+    body = []
+    for p in ranks:
+        for d in names:
+            sought, touched = one(rows, "contact: search", p, d), one(rows, "contact: touch", p, d)
+            solved = one(rows, "contact: solve", p, d)
+            moved = sum(r["bytes"] for r in rows if r["ranks"] == p and r["decomposition"] == d and r["group"] == "contact")
+            particles = [r for r in rows if r["ranks"] == p and r["decomposition"] == d and r["group"] == "particles" and r["phase"].endswith(": forces")]
+            body.append((p, d, f"{balance(sought):.2f}", f"{copies(sought, p):.2f}", f"{balance(touched):.2f}", f"{balance(solved):.2f}",
+                         f"{balance(particles[0]):.2f}" if particles else "", f"{moved / 1e3:.1f}", f"{1e3 * seconds(rows, 'cluster', p, d, groups={'contact'}):.3f}",
+                         f"{1e3 * seconds(rows, 'cluster', p, d):.3f}"))
+    head = ["ranks", "decomposition", "search max/mean", "boxes with copies / boxes", "pairs max/mean", "push-back max/mean", "particles max/mean",
+            "contact, kB of the busiest rank", "contact, ms", "step, ms"]
+    return table(head, body)
+
+
+def run_so(scene, values, ranks):
+    """Real runs: what contact counted, and the bytes that it sent."""
+    body = []
+    for d in names:
+        summary, _, _ = simulate(scene, f"decompositions-{scene}-{d}", {**values, "contact.decomposition": d}, ranks)
+        steps = summary["steps"]
+        sent = sum(e["bytes"] for e in summary["exchanges"] if e["exchange"].startswith("contact")) / steps
+        messages = sum(e["messages"] for e in summary["exchanges"] if e["exchange"].startswith("contact")) / steps
+        report = " ".join(line for i in summary["interactions"] for line in i["report"])
+        found = re.search(r"of the ranks: search ([\d.]+), enforcement ([\d.]+)", report)
+        body.append((d, found[1] if found else "", found[2] if found else "", f"{messages:.1f}", f"{sent / 1e3:.1f}"))
+    return table(["decomposition", "search max/mean", "push-back max/mean", "messages a step", "kB a step"], body)
+
+
+def measure(full):
+    text = "## One static decomposition, slices, separate bisections\n\n"
+    text += "`static`: search and push-back where the elements are, particles where they were at first. `slices`: slabs across the longest axis. `own`: a bisection for each.\n"
+    ranks = (64, 256, 1024) if full else (16, 64, 256)
+    cases = [("can-crush", {"parameters.doublings": 8 if full else 4}, "0.1 ms" if full else "0.05 ms"), ("bird-strike", {}, "0.15 ms")]
+    if full:
+        cases.append(("penetrator", {"parameters.resolution": 1}, "2 us"))
+    for scene, values, until in cases:
+        text += f"\n`{scene}`{' ' + str(values) if values else ''} at {until}, predicted for machine cluster from decompositions for each number of ranks:\n\n"
+        text += counted(scene, values, until, ranks)
+    text += "\n`can-crush` to 0.2 ms on 8 ranks, as run (contact.decomposition); the answer is the same:\n\n"
+    return text + run_so("can-crush", {"end_time": "0.2 ms"}, 8)

@@ -1,0 +1,35 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Table 1: the penetrator; seconds a step on 64 to 1,024 ranks predicted, on one and two ranks measured."""
+from common import draw, plan, seconds, table
+
+paper = {64: (0.409, 4.55, 1.24, 6.27), 128: (0.191, 2.36, 0.715, 3.30), 256: (0.102, 1.30, 0.533, 1.97), 512: (0.0525, 0.708, 0.334, 1.11),
+         1024: (0.0303, 0.423, 0.238, 0.704)}
+ranks = (64, 128, 256, 512, 1024)
+groups = (("elements", {"finite elements"}), ("particles", {"particles"}), ("contact", {"contact"}))
+
+
+def measure(full):
+    values = {"parameters.resolution": 1} if full else {}
+    machines = ("tflops", "cluster", "here")
+    until, trial = ("2 us", 10) if full else ("5 us", 20)
+    measured, rows, text_of_plan = plan("penetrator", "table1", values, (1, 2, *ranks), machines, ("own",), until=until, trial=trial)
+    two, _, _ = plan("penetrator", "table1-two", values, until=until, trial=trial, on=2)
+    sizes = [line.strip() for line in text_of_plan.splitlines() if " elements, " in line and " parts" in line]
+    text = "## Table 1: a penetrator in a target of particles\n\n"
+    text += f"`apps/scenes/penetrator`{' ' + str(values) if values else ''}: " + "; ".join(sizes) + ".\n\n"
+    lines = []
+    for m in machines[:2]:
+        body, first = [], None
+        for p in ranks:
+            parts = [seconds(rows, m, p, groups=g) for _, g in groups] + [seconds(rows, m, p)]
+            first = first or parts
+            body.append((p, *(f"{x:.3e} ({f / x:.2f})" for x, f in zip(parts, first)), " / ".join(f"{paper[64][k] / paper[p][k]:.2f}" for k in range(4))))
+            for (name, _), x, f in zip((*groups, ("all", None)), parts, first):
+                lines.append((f"speed-up over 64 ranks: {m}", "ranks", "speed-up", name, p, f / x, 0))
+            lines.append((f"speed-up over 64 ranks: {m}", "ranks", "speed-up", "PRONTO 1997", p, paper[64][3] / paper[p][3], 1))
+        text += f"Predicted, machine {m}: seconds per step (speed-up over 64 ranks).\n\n"
+        text += table(["ranks", *(name for name, _ in groups), "all", "paper: elements / particles / contact / all"], body) + "\n"
+    predicted = [seconds(rows, "here", p) for p in (1, 2)]
+    text += (f"Measured on one and two ranks here, processor seconds of the busier rank per step: {measured.processor:.4g} and {two.processor:.4g}, speed-up "
+             f"{measured.processor / two.processor:.2f} (by the clock {measured.clock / two.clock:.2f}); predicted {predicted[0] / predicted[1]:.2f}.\n\n")
+    return text + draw("table1", lines, 1600, 560)
