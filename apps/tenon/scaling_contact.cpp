@@ -166,7 +166,7 @@ class ContactParts {
       places[n] = contact_.surfaces()
                       .parties()[static_cast<std::size_t>(node.party)]
                       ->contact_positions()[static_cast<std::size_t>(node.node)];
-      weights[n] += static_cast<double>(set_.work()[n]);
+      weights[n] = set_.weight(weights[n], static_cast<double>(set_.work()[n]));
       node_home_[n] = home_[home];
     }
     if (nodes == 0) return;
@@ -231,27 +231,29 @@ class ContactParts {
     return load;
   }
 
+  /// All candidates of a node are looked at wherever one of them is.
   PhaseLoad touch() const {
-    std::vector<double> work = nothing();
-    for (const auto& ranks : pair_parts_)
-      for (const int r : ranks) of(work, r) += 1;
-    return load_of("touch", work, static_cast<double>(pair_parts_.size()));
+    const std::vector<WorkingPair>& pairs = set_.pairs();
+    const auto first = [&](std::size_t q) { return static_cast<std::size_t>(pairs[q].node[0]); };
+    std::vector<double> count(static_cast<std::size_t>(set_.nodes())), work = nothing();
+    for (std::size_t q = 0; q < pairs.size(); ++q) count[first(q)] += 1;
+    double whole = 0;
+    for (std::size_t q = 0; q < pairs.size(); ++q) {
+      const double looks = (1 + static_cast<double>(set_.work()[first(q)])) / count[first(q)];
+      for (const int r : pair_parts_[q]) of(work, r) += looks;
+      whole += looks;
+    }
+    return load_of("touch", work, whole);
   }
 
   /// Constraints come and go from step to step: what the nodes have been visited since the last partition stands for
-  /// them, by the ranks that have their pairs.
+  /// them, on all ranks that have the node.
   PhaseLoad solve() const {
-    const std::vector<WorkingPair>& pairs = set_.pairs();
     std::vector<double> work = nothing();
-    double whole = 0;
-    for (std::size_t q = 0; q < pairs.size(); ++q) {
-      double visits = 0;
-      for (std::int32_t k = 0; k < pairs[q].nodes; ++k)
-        visits +=
-            static_cast<double>(set_.work()[static_cast<std::size_t>(pairs[q].node[static_cast<std::size_t>(k)])]);
-      for (const int r : pair_parts_[q]) of(work, r) += visits;
-      whole += visits;
-    }
+    for (const std::int64_t copy : copies_)
+      of(work, static_cast<int>(copy / set_.nodes())) +=
+          static_cast<double>(set_.work()[static_cast<std::size_t>(copy % set_.nodes())]);
+    const double whole = std::accumulate(set_.work().begin(), set_.work().end(), 0.0);
     PhaseLoad load = load_of("solve", work, whole);
     Traffic halo(parts_);
     const std::int64_t nodes = set_.nodes();
@@ -264,16 +266,20 @@ class ContactParts {
   }
 
   PhaseLoad exchange() const {
+    // Homes collect what is known of their nodes and apply impulses; parts take them in.
     std::vector<double> work = nothing();
     Traffic state(parts_), impulses(parts_);
     const std::int64_t nodes = set_.nodes();
     for (const std::int64_t copy : copies_) {
       const auto n = static_cast<std::size_t>(copy % nodes);
       const auto r = static_cast<int>(copy / nodes);
-      of(work, r) += 1;
+      of(work, r) += 0.5;
       state.add(node_home_[n], r, sizeof(NodeState));
     }
-    for (std::size_t n = 0; n < part_.size(); ++n) impulses.add(part_[n], node_home_[n], sizeof(Vec3));
+    for (std::size_t n = 0; n < part_.size(); ++n) {
+      of(work, node_home_[n]) += 0.5;
+      impulses.add(part_[n], node_home_[n], sizeof(Vec3));
+    }
     PhaseLoad load = load_of("exchange", work, static_cast<double>(nodes));
     state.book(load, 1);
     impulses.book(load, iterations_ > 0 ? 1 : 0);

@@ -99,6 +99,7 @@ void Contact::expect_thrown(double dt) {
 
 void Contact::gather(double time, double dt) {
   const ScopedTimer timer(*phases_.exchange);
+  set_.count_step();
   bodies_.clear();
   first_body_.clear();
   for (ContactParty* party : parties_) {

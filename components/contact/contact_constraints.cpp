@@ -23,6 +23,8 @@ constexpr double return_rate = 0.1;
 constexpr double touching = 0.02;
 // Of the distance of interest: what is less is left to the next step when a stopped node is looked at again.
 constexpr double negligible = 1e-3;
+// What a look at a pair costs, in visits of a constraint in the iteration.
+constexpr float work_of_look = 3;
 
 Vec3 tangential(const Vec3& a, const Vec3& normal) {
   return a - dot(a, normal) * normal;
@@ -100,6 +102,9 @@ void Contact::touch_pairs(double time, double dt) {
     };
     group_wake_[g] = wakes();
     if (group_wake_[g] > 0) continue;
+    set_.work()[static_cast<std::size_t>(set_.pairs()[begin].node[0])] +=
+        work_of_look * static_cast<float>(std::count(wake_.begin() + static_cast<std::ptrdiff_t>(begin),
+                                                     wake_.begin() + static_cast<std::ptrdiff_t>(end), 0.0));
     const std::int64_t kind = set_.pairs()[begin].key.kind;
     if (kind == 0)
       touch_faces(begin, end, dt);

@@ -326,8 +326,9 @@ void WorkingSet::partition() {
     busy_.push_back(static_cast<LocalIndex>(n));
     places.push_back(surfaces_.parties()[static_cast<std::size_t>(nodes[n].party)]
                          ->contact_positions()[static_cast<std::size_t>(nodes[n].node)]);
-    weights.push_back(uses[n] + static_cast<double>(home_work_[n]));
+    weights.push_back(weight(uses[n], static_cast<double>(home_work_[n])));
   }
+  steps_ = 0;
   home_part_.assign(nodes.size(), comm_.rank());
   if (comm_.size() > 1 && decomposition_ != SearchDecomposition::owner_boxes) {
     const std::vector<int> parts = rcb_.partition(places, weights);

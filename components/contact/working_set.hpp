@@ -2,6 +2,7 @@
 // The part of contact that one rank enforces: candidate pairs, their nodes, and where these live.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <compare>
 #include <cstdint>
@@ -101,6 +102,14 @@ class WorkingSet {
   std::int64_t turned_away() const { return turned_away_; }
   /// J: of pairs that were remembered and are no more, on this rank, since the last `build`.
   std::span<const double> lost() const { return lost_; }
+  /// Local. A step is taken with this set.
+  void count_step() { ++steps_; }
+  /// What a node in so many pairs costs, in visits of a constraint in the iteration: what it takes in each of the steps
+  /// since the last partition, and the work that was counted for it.
+  double weight(double uses, double work) const {
+    constexpr double of_node = 1, of_use = 0.05;
+    return static_cast<double>(std::max<std::int64_t>(1, steps_)) * (of_node + of_use * uses) + work;
+  }
   /// Counted work of enforcement per node of the set, for the next partition.
   std::vector<float>& work() { return work_; }
   std::span<const float> work() const { return work_; }
@@ -127,6 +136,7 @@ class WorkingSet {
   Rcb rcb_;
   bool any_ = false;
   std::int64_t turned_away_ = 0;
+  std::int64_t steps_ = 0;                                // since the last partition
   std::vector<PairRecord> records_;                       // at the homes of first nodes, ascending by key
   std::vector<std::pair<PairKey, PairMemory>> memories_;  // of the pairs before, likewise
   std::vector<double> lost_;

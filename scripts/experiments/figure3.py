@@ -35,13 +35,13 @@ def beyond(rows, machine, ranks, target):
 
 def measure(full):
     sizes = range(9) if full else range(5)
-    until = "0.1 ms" if full else "0.05 ms"
+    until = "0.02 ms"
     machines = ("here", "tflops", "cluster")
     measured, weak, lines, last = [], [], [], None
     for doublings in sizes:
         ranks = 2**doublings
         _, rows, text = plan("can-crush", f"figure3-{doublings}", {"parameters.doublings": doublings}, sorted({1, ranks}), machines, until=until,
-                             trial=100 if doublings < 4 else 40)
+                             trial=100 if doublings < 5 else 20)
         elements = sum(int(n) for n in re.findall(r"^  (\d+) elements, \d+ nodes in 1 parts", text, re.M))
         fe, find, push, total = parts_of(rows, "here", 1)
         measured.append((elements, fe, find, push, total))

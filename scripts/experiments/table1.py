@@ -9,10 +9,10 @@ groups = (("elements", {"finite elements"}), ("particles", {"particles"}), ("con
 
 
 def measure(full):
-    values = {"parameters.resolution": 1} if full else {}
+    values = {"parameters.resolution": 3.5} if full else {}
     machines = ("tflops", "cluster", "here")
-    until, trial = ("2 us", 10) if full else ("5 us", 20)
-    measured, rows, text_of_plan = plan("penetrator", "table1", values, (1, 2, *ranks), machines, ("own",), until=until, trial=trial)
+    until, trial = "20 us", 20
+    measured, rows, text_of_plan = plan("penetrator", "table1", values, (1, 2, *ranks), machines, ("own", "static", "slices"), until=until, trial=trial)
     two, _, _ = plan("penetrator", "table1-two", values, until=until, trial=trial, on=2)
     sizes = [line.strip() for line in text_of_plan.splitlines() if " elements, " in line and " parts" in line]
     text = "## Table 1: a penetrator in a target of particles\n\n"
