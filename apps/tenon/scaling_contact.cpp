@@ -231,15 +231,20 @@ class ContactParts {
     return load;
   }
 
-  /// All candidates of a node are looked at wherever one of them is.
+  /// A pair is looked at wherever one of its nodes is.
   PhaseLoad touch() const {
     const std::vector<WorkingPair>& pairs = set_.pairs();
-    const auto first = [&](std::size_t q) { return static_cast<std::size_t>(pairs[q].node[0]); };
-    std::vector<double> count(static_cast<std::size_t>(set_.nodes())), work = nothing();
-    for (std::size_t q = 0; q < pairs.size(); ++q) count[first(q)] += 1;
+    const auto node = [&](std::size_t q, std::int32_t k) {
+      return static_cast<std::size_t>(pairs[q].node[static_cast<std::size_t>(k)]);
+    };
+    std::vector<double> uses(static_cast<std::size_t>(set_.nodes())), work = nothing();
+    for (std::size_t q = 0; q < pairs.size(); ++q)
+      for (std::int32_t k = 0; k < pairs[q].nodes; ++k) uses[node(q, k)] += 1;
     double whole = 0;
     for (std::size_t q = 0; q < pairs.size(); ++q) {
-      const double looks = (1 + static_cast<double>(set_.work()[first(q)])) / count[first(q)];
+      double looks = 1;
+      for (std::int32_t k = 0; k < pairs[q].nodes; ++k)
+        looks += static_cast<double>(set_.work()[node(q, k)]) / uses[node(q, k)];
       for (const int r : pair_parts_[q]) of(work, r) += looks;
       whole += looks;
     }

@@ -105,6 +105,7 @@ class Contact final : public Interaction {
   bool find_more(double time, double dt);
   bool is_moved(std::size_t begin, std::size_t end) const;
   void make_groups();
+  void count_looks(std::size_t begin, std::size_t end);
   void touch_pairs(double time, double dt);
   double fastest(std::span<const Vec3> velocity, double time, double dt) const;
   double near_of(const contact::WorkingPair& pair) const;

@@ -102,9 +102,7 @@ void Contact::touch_pairs(double time, double dt) {
     };
     group_wake_[g] = wakes();
     if (group_wake_[g] > 0) continue;
-    set_.work()[static_cast<std::size_t>(set_.pairs()[begin].node[0])] +=
-        work_of_look * static_cast<float>(std::count(wake_.begin() + static_cast<std::ptrdiff_t>(begin),
-                                                     wake_.begin() + static_cast<std::ptrdiff_t>(end), 0.0));
+    count_looks(begin, end);
     const std::int64_t kind = set_.pairs()[begin].key.kind;
     if (kind == 0)
       touch_faces(begin, end, dt);
@@ -115,6 +113,17 @@ void Contact::touch_pairs(double time, double dt) {
     else
       touch_edges(begin, dt);
     group_wake_[g] = wakes();
+  }
+}
+
+/// Pairs are looked at wherever one of their nodes is, so each of these has a share.
+void Contact::count_looks(std::size_t begin, std::size_t end) {
+  for (std::size_t q = begin; q < end; ++q) {
+    if (wake_[q] > 0) continue;
+    const WorkingPair& pair = set_.pairs()[q];
+    const float each = work_of_look / static_cast<float>(pair.nodes);
+    for (std::int32_t k = 0; k < pair.nodes; ++k)
+      set_.work()[static_cast<std::size_t>(pair.node[static_cast<std::size_t>(k)])] += each;
   }
 }
 

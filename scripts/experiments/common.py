@@ -14,6 +14,7 @@ out = root / "out" / "experiments"
 document = root / "docs" / "experiments.md"
 order = ["figure3", "table1", "decompositions", "skips", "scaling"]
 tenon = plot = None
+clock = None  # a library to be preloaded, which makes timers count processor time
 reuse = False  # what an earlier call has measured
 environment = dict(os.environ)
 
@@ -32,15 +33,18 @@ process by the code that a run uses; what a unit of work costs is measured by st
 """
 
 
-def prepare(build, keep):
+def prepare(build, keep, processor_time):
     """Finds the programs and lets Open MPI run as the other scripts do."""
-    global tenon, plot, reuse
+    global tenon, plot, reuse, clock
     reuse = keep
     folder = (root / build).resolve()
     tenon, plot = folder / "tenon", folder / "tenon_plot_table"
     if not tenon.exists():
         raise SystemExit(f"{tenon}: is not there; build it first: scripts/setup tenon tenon_plot_table")
     out.mkdir(parents=True, exist_ok=True)
+    if processor_time:
+        clock = out / "processor_clock.so"
+        subprocess.run(["cc", "-O2", "-shared", "-fPIC", str(root / "scripts" / "experiments" / "processor_clock.c"), "-o", str(clock)], check=True)
     for line in (root / "scripts" / "mpi-environment").read_text().splitlines():
         if line.startswith("export "):
             environment.update(word.split("=", 1) for word in line[len("export "):].split() if "=" in word)
@@ -50,12 +54,12 @@ def run(arguments, ranks=1, log=None):
     """Runs a program and returns what it prints; with mpirun on more ranks."""
     command = [str(a) for a in arguments]
     if ranks > 1:
-        command = ["mpirun", "--oversubscribe", "-n", str(ranks), *command]
+        command = ["mpirun", "--oversubscribe", "-n", str(ranks), *(["-x", f"LD_PRELOAD={clock}"] if clock else []), *command]
     print("  " + " ".join(command).replace(str(root) + "/", ""), flush=True)
     asked = "# " + " ".join(command) + "\n"
     if reuse and log and (out / log).exists() and (out / log).read_text().startswith(asked):
         return (out / log).read_text()[len(asked):]
-    done = subprocess.run(command, env=environment, cwd=out, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    done = subprocess.run(command, env={**environment, "LD_PRELOAD": str(clock)} if clock and ranks == 1 and command[0] == str(tenon) else environment, cwd=out, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     if log:
         (out / log).write_text((asked if done.returncode == 0 else "") + done.stdout)
     if done.returncode:
@@ -162,7 +166,8 @@ def machine():
     cpu = re.search(r"model name\s*: (.*)", Path("/proc/cpuinfo").read_text())
     version = " ".join(subprocess.run([tenon, "--version"], text=True, capture_output=True, env=environment).stdout.split("\n")).strip()
     load = os.getloadavg()[0]
-    return f"Measured on {os.cpu_count()} cores of {cpu[1] if cpu else 'an unknown processor'}, load {load:.1f}; {version}."
+    kind = "in processor time, as others used the machine (--processor-time), " if clock else ""
+    return f"Measured {kind}on {os.cpu_count()} cores of {cpu[1] if cpu else 'an unknown processor'}, load {load:.1f}; {version}."
 
 
 def write_section(name, text):

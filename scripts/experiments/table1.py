@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Table 1: the penetrator; seconds a step on 64 to 1,024 ranks predicted, on one and two ranks measured."""
+import functools
+
 from common import draw, plan, seconds, table
 
 paper = {64: (0.409, 4.55, 1.24, 6.27), 128: (0.191, 2.36, 0.715, 3.30), 256: (0.102, 1.30, 0.533, 1.97), 512: (0.0525, 0.708, 0.334, 1.11),
@@ -8,11 +10,22 @@ ranks = (64, 128, 256, 512, 1024)
 groups = (("elements", {"finite elements"}), ("particles", {"particles"}), ("contact", {"contact"}))
 
 
+until, trial = "20 us", 20
+machines = ("tflops", "cluster", "here")
+
+
+def values_of(full):
+    return {"parameters.resolution": 3.5} if full else {}
+
+
+@functools.cache
+def predictions(full):
+    return plan("penetrator", "table1", values_of(full), (1, 2, *ranks), machines, ("own", "static", "slices"), until=until, trial=trial)
+
+
 def measure(full):
-    values = {"parameters.resolution": 3.5} if full else {}
-    machines = ("tflops", "cluster", "here")
-    until, trial = "20 us", 20
-    measured, rows, text_of_plan = plan("penetrator", "table1", values, (1, 2, *ranks), machines, ("own", "static", "slices"), until=until, trial=trial)
+    values = values_of(full)
+    measured, rows, text_of_plan = predictions(full)
     two, _, _ = plan("penetrator", "table1-two", values, until=until, trial=trial, on=2)
     sizes = [line.strip() for line in text_of_plan.splitlines() if " elements, " in line and " parts" in line]
     text = "## Table 1: a penetrator in a target of particles\n\n"
