@@ -4,7 +4,7 @@ from common import plan, seconds, table
 
 
 def measure(full):
-    cases = [("can-crush", {"parameters.doublings": 5 if full else 3}, "0.05 ms"), ("tube-crush", {}, "0.02 ms"), ("bird-strike", {"meshes.bird.spacing": "2 mm"}, "0.1 ms"),
+    cases = [("can-crush", {"parameters.doublings": 5 if full else 4}, "0.02 ms"), ("tube-crush", {}, "0.02 ms"), ("bird-strike", {"meshes.bird.spacing": "2 mm"}, "0.1 ms"),
              ("taylor-bar-copper", {}, "2 us")]
     body = []
     for scene, values, until in cases:

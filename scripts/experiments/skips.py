@@ -6,9 +6,9 @@ import subprocess
 from common import simulate, table
 
 # Scene, short end, and the switch that does everything in each step.
-cases = [("can-crush", {"end_time": "0.3 ms"}, {"contact.always_search": "true"}),
-         ("tube-crush", {"end_time": "0.05 ms"}, {"contact.always_search": "true"}),
-         ("bird-strike", {"end_time": "0.1 ms"}, {"contact.always_search": "true", "components.bird.always_search": "true"}),
+cases = [("can-crush", {"end_time": "0.05 ms"}, {"contact.always_search": "true"}),
+         ("tube-crush", {"end_time": "0.02 ms"}, {"contact.always_search": "true"}),
+         ("bird-strike", {"end_time": "0.05 ms"}, {"contact.always_search": "true", "components.bird.always_search": "true"}),
          ("hot-taylor-bar", {"end_time": "5 us"}, {})]
 
 
