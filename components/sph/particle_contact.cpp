@@ -88,10 +88,17 @@ void ParticleContact::begin(double kick) {
   }
 }
 
+// What is outside of the space of the particles (z of two dimensions) does not move: a layer between a face and its own
+// particles would buckle out of the plane.
+Vec3 ParticleContact::within(const Vec3& a) const {
+  return {a[0], parts_.options.dimension > 1 ? a[1] : 0, parts_.options.dimension > 2 ? a[2] : 0};
+}
+
 void ParticleContact::mobilities(std::span<const LocalIndex> nodes, std::span<Mobility> mobility) const {
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const double w = inverse_mass_[static_cast<std::size_t>(nodes[i])];
-    mobility[i] = {{w, w, w, 0, 0, 0}, -1};
+    const Vec3 along = within({w, w, w});
+    mobility[i] = {{along[0], along[1], along[2], 0, 0, 0}, -1};
   }
 }
 
@@ -101,7 +108,7 @@ void ParticleContact::push(std::span<const LocalIndex> nodes, std::span<const Ve
   pushed_ = true;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const auto n = static_cast<std::size_t>(nodes[i]);
-    const Vec3 dv = inverse_mass_[n] * impulses[i];
+    const Vec3 dv = inverse_mass_[n] * within(impulses[i]);
     velocity_[n] = velocity_[n] + dv;
     work_[n] += 0.5 * dot(impulses[i], former_[n] + velocity_[n]) + 0.5 * dot(impulse_[n], dv);
     impulse_[n] = impulse_[n] + impulses[i];
@@ -118,7 +125,7 @@ void ParticleContact::end() {
 void ParticleContact::shift(std::span<const LocalIndex> nodes, std::span<const Vec3> by) {
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const auto n = static_cast<std::size_t>(nodes[i]);
-    position_[n] = position_[n] + by[i];
+    position_[n] = position_[n] + within(by[i]);
   }
   const std::size_t owned = parts_.particles.owned();
   parts_.home.to_particles(parts_.decomposition.version(), {position_.data()->data(), 3 * position_.size()},

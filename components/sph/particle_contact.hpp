@@ -65,6 +65,7 @@ class ParticleContact final : public ContactParty {
 
  private:
   void find_surfaces();
+  Vec3 within(const Vec3& a) const;
   void bring(const Column& column, std::vector<Vec3>& nodes);
 
   Parts parts_;

@@ -45,17 +45,19 @@ void Sph::save(CheckpointWriter& file) {
   formulation_->save(file);
   if (!contact_) return;
   std::vector<GlobalId> ids;
-  std::vector<double> work, slip;
+  std::vector<double> work, slip, heat;
   ContactFields* const fields = contact_->fields();
   for (const LocalIndex n : mesh_->owned_nodes) {
     const auto i = static_cast<std::size_t>(n);
     ids.push_back(mesh_->node_ids[i]);
     work.push_back(contact_->node_work()[i]);
     for (std::size_t c = 0; c < 3; ++c) slip.push_back(fields ? fields->slip[i][c] : 0);
+    heat.push_back(fields ? fields->friction_heat[i] : 0);
   }
   const GlobalOrder nodes(mesh_->comm, ids, mesh_->global_nodes);
   file.array(key("contact_work"), nodes, work, 1);
   file.array(key("contact_slip"), nodes, slip, 3);
+  file.array(key("friction_heat"), nodes, heat, 1);
 }
 
 void Sph::load(const CheckpointReader& file) {
@@ -80,15 +82,17 @@ void Sph::load(const CheckpointReader& file) {
   if (!contact_) return;
   std::vector<GlobalId> ids;
   for (const LocalIndex n : mesh_->owned_nodes) ids.push_back(mesh_->node_ids[static_cast<std::size_t>(n)]);
-  std::vector<double> work(ids.size()), slip(3 * ids.size());
+  std::vector<double> work(ids.size()), slip(3 * ids.size()), heat(ids.size());
   const GlobalOrder nodes(mesh_->comm, ids, mesh_->global_nodes);
   file.array(key("contact_work"), nodes, work, 1);
   file.array(key("contact_slip"), nodes, slip, 3);
+  file.array(key("friction_heat"), nodes, heat, 1);
   ContactFields* const fields = contact_->fields();
   for (std::size_t k = 0; k < ids.size(); ++k) {
     const auto i = static_cast<std::size_t>(mesh_->owned_nodes[k]);
     contact_->node_work()[i] = work[k];
     for (std::size_t c = 0; fields && c < 3; ++c) fields->slip[i][c] = slip[3 * k + c];
+    if (fields) fields->friction_heat[i] = heat[k];
   }
 }
 

@@ -77,6 +77,10 @@ std::vector<ExportPort> Sph::exports() {
     scalar("gap", "m", fields.gap);
     scalar("contact_status", "1", fields.status);
     scalar("contact_pressure", "Pa", fields.pressure);
+    ports.push_back({{"friction_heat", Location::node, FieldKind::total, 1, "J"}, [&fields](std::span<double> out) {
+                       std::ranges::copy(fields.friction_heat, out.begin());
+                       std::ranges::fill(fields.friction_heat, 0.0);
+                     }});
   }
   return ports;
 }

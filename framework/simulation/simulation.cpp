@@ -166,6 +166,9 @@ void Simulation::step() {
   time_ = leader_->time();
   ++steps_;
   for (Component* component : leaders) run_couplings(component, nullptr, CouplingSchedule::source_step);
+  // Those that step together are each other's equals: what goes between them goes when all have advanced.
+  for (Component* source : leaders)
+    for (Component* target : leaders) run_couplings(source, target, CouplingSchedule::slower_step);
   follow();
   const bool asked = stop_ && stop_->asked(comm_, steps_);
   stopped_ = asked && !done();
@@ -261,6 +264,8 @@ void Simulation::follow() {
       run_couplings(follower, nullptr, CouplingSchedule::source_step);
       for (Component* leader : leaders) run_couplings(follower, leader, CouplingSchedule::slower_step);
     }
+    for (Component* source : followers)
+      for (Component* target : followers) run_couplings(source, target, CouplingSchedule::slower_step);
   }
 }
 

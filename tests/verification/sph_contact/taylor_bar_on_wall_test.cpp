@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Case F13: a Taylor bar of particles, five and ten across its radius, on a rigid wall that it may leave, by contact.
+#include "solid_case.hpp"
+#include "sph_contact_case.hpp"
+
+namespace tenon::testing {
+namespace {
+
+struct Bar {
+  double length = 0, radius = 0, neighbours_lost = 0, ledger_error = 0;
+};
+
+/// A quarter of the bar of case A07, without friction.
+Bar hit_wall(int across) {
+  constexpr double radius = 3.2e-3, length = 32.4e-3, speed = 227;
+  const double spacing = radius / across;
+  SphOptions options;
+  MaterialDescription copper = elastic_solid(8930, 117e9, 0.35);
+  copper.plasticity = LinearHardeningParameters{400e6, 100e6, {}};
+  options.bodies = {body_of("bar", copper)};
+  options.formulation = SphFormulation::total_lagrangian;
+  options.time_step.cfl = 0.5;
+  options.domain.axes[0].low = options.domain.axes[1].low = 0;
+  options.initial_velocity_function = [](const Vec3&) { return Vec3{0, 0, -speed}; };
+  ContactOptions contact;
+  contact.rigid_surfaces = {rigid_plane("wall", {0, 0, 0}, {0, 0, 1})};
+  Log log(false);
+  Simulation simulation(communicator(), log, 0, 80e-6);
+  DistributeOptions by_place;
+  by_place.method = PartitionMethod::rcb;
+  auto* const sph = static_cast<Sph*>(&simulation.add(std::make_unique<Sph>(
+      "particles",
+      distribute(communicator(), particle_bodies({{"bar", body_of_points(quarter_cylinder(radius, length, across))}}),
+                 by_place),
+      options)));
+  simulation.add(std::make_unique<Contact>("contact", communicator(), std::vector<Component*>{sph}, contact));
+  simulation.initialize();
+  simulation.run();
+  Bar bar;
+  const ParticleData& p = sph->particles();
+  double low = 1e300;
+  for (std::size_t i = 0; i < p.owned(); ++i) {
+    bar.length = std::max(bar.length, p.position[3 * i + 2]), low = std::min(low, p.position[3 * i + 2]);
+    bar.radius = std::max(bar.radius, std::hypot(p.position[3 * i], p.position[3 * i + 1]));
+  }
+  bar.length = communicator().max(bar.length) - communicator().min(low) + spacing;
+  bar.radius = communicator().max(bar.radius) + 0.5 * spacing;
+  bar.ledger_error = simulation.ledger().take().error;
+  std::printf("F13, R/%d on a wall: L %.3f mm, R %.3f mm, ledger %.1e, %lld steps\n", across, 1e3 * bar.length,
+              1e3 * bar.radius, bar.ledger_error, static_cast<long long>(simulation.steps()));
+  return bar;
+}
+
+void expect_like_elements(const Bar& bar, double of_radius) {
+  EXPECT_NEAR(bar.length, 21.47e-3, 0.02 * 21.47e-3);
+  EXPECT_NEAR(bar.radius, 7.18e-3, of_radius * 7.18e-3);
+  EXPECT_LE(bar.ledger_error, 1e-11);
+}
+
+TEST(TaylorBarOnWall, FiveAcross) {
+  expect_like_elements(hit_wall(5), 0.09);
+}
+
+TEST(TaylorBarOnWall, TenAcross) {
+  expect_like_elements(hit_wall(10), 0.06);
+}
+
+}  // namespace
+}  // namespace tenon::testing
