@@ -10,7 +10,7 @@ namespace tenon::testing {
 
 struct Rest {
   double spacing, width, height, end;  ///< m, s
-  bool pressed = true;                 ///< at the start: else gravity grows during the first second [AHA12]
+  bool pressed = true;                 ///< at the start: else gravity grows during the first second [AHA12], damped
 };
 
 struct RestEnd {
@@ -23,7 +23,8 @@ struct RestEnd {
 };
 
 inline SphScene at_rest(const Rest& rest) {
-  SphScene scene = water({rest.width, rest.height, 0}, {rest.width, 1.2 * rest.height, 0}, rest.spacing, 0.3);
+  SphScene scene =
+      water({rest.width, rest.height, 0}, {rest.width, 1.2 * rest.height, 0}, rest.spacing, rest.pressed ? 0.3 : 1);
   if (rest.pressed) return scene;
   scene.options.bodies[0].initial_pressure.reset();
   scene.options.gravity[1] = TimeFunction::smooth_step(0, -gravity, 0, 1);
