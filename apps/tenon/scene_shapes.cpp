@@ -116,7 +116,7 @@ Schema foam_schema() {
   s.required_quantity("strut_radius", "m", "Radius of the struts.", Range::positive());
   s.vector("cells", "1", "Cubic cells along x, y, z.").required();
   s.integer("elements", "Bricks along the edge of a cubic cell.", "12", {4, 1000, false, false});
-  s.quantity("irregularity", "1", "Random shift of the lattice, in cells; none at both ends along z.", "0",
+  s.quantity("irregularity", "1", "Random shift of the lattice, in cells; none across the outer faces.", "0",
              {0, 0.3, false, true});
   return s;
 }

@@ -121,23 +121,23 @@ std::uint64_t mixed(std::uint64_t z) {  // splitmix64 [SLF14]
   return z ^ (z >> 31);
 }
 
-/// Shift of a point (in cells), linear between the corners of the cubic cells.
+/// Shift of a point (in cells), linear between the corners of the cubic cells; none across the outer faces.
 Vec3 shift(const FoamShape& shape, const Vec3& x) {
   Vec3 sum{0, 0, 0};
   std::array<int, 3> base;
   for (std::size_t c = 0; c < 3; ++c) base[c] = std::clamp(static_cast<int>(std::floor(x[c])), 0, shape.cells[c] - 1);
-  for (int corner = 0; corner < 8; ++corner) {
+  for (unsigned corner = 0; corner < 8; ++corner) {
     double weight = 1;
     std::uint64_t id = 0;
-    int k = 0;
+    std::array<int, 3> at;
     for (std::size_t c = 0; c < 3; ++c) {
-      const int up = corner >> c & 1;
-      weight *= up ? x[c] - base[c] : 1 - (x[c] - base[c]);
-      id = id * 4096 + static_cast<std::uint64_t>(base[c] + up);
-      if (c == 2) k = base[c] + up;
+      const int up = static_cast<int>(corner >> c & 1U);
+      at[c] = base[c] + up;
+      weight *= up == 1 ? x[c] - base[c] : 1 - (x[c] - base[c]);
+      id = id * 4096 + static_cast<std::uint64_t>(at[c]);
     }
-    if (k == 0 || k == shape.cells[2]) continue;
     for (std::size_t c = 0; c < 3; ++c) {
+      if (at[c] == 0 || at[c] == shape.cells[c]) continue;
       const double u = static_cast<double>(mixed(mixed(shape.seed) + 4 * id + c) >> 11) * 0x1p-53;
       sum[c] += weight * (2 * u - 1) * shape.irregularity;
     }
@@ -145,7 +145,7 @@ Vec3 shift(const FoamShape& shape, const Vec3& x) {
   return sum;
 }
 
-/// Draws the nodes of the surface, but for both ends, towards the round strut, by at most a quarter of a brick.
+/// Draws the nodes of the surface, but for the outer faces, towards the round strut, by at most a quarter of a brick.
 void round_off(const FoamShape& shape, const std::vector<Strut>& struts, const std::vector<SideData>& sides,
                MeshData& mesh) {
   std::vector<char> on_skin(mesh.coordinates.size(), 0);
@@ -158,13 +158,13 @@ void round_off(const FoamShape& shape, const std::vector<Strut>& struts, const s
   const double radius = shape.strut_radius / shape.cell, most = 0.25 / shape.elements;
   for (std::size_t n = 0; n < mesh.coordinates.size(); ++n) {
     Vec3& x = mesh.coordinates[n];
-    bool at_end = false;
+    bool outside = false;
     Vec3 within{};
     for (std::size_t c = 0; c < 3; ++c) {
-      at_end = at_end || x[c] == 0 || x[c] == shape.cells[c];
+      outside = outside || x[c] == 0 || x[c] == shape.cells[c];
       within[c] = x[c] - std::floor(x[c]);
     }
-    if (!on_skin[n] || at_end) continue;
+    if (!on_skin[n] || outside) continue;
     const Vec3 d = to_nearest(struts, within);
     const double distance = norm(d);
     if (distance > 0) x = x + (std::clamp(distance - radius, -most, most) / distance) * d;

@@ -100,7 +100,7 @@ struct FoamShape {
   std::array<int, 3> cells{2, 2, 2};  ///< along x, y, z, from the origin
   int elements = 12;                  ///< bricks along the edge of a cubic cell
   /// Random shift of the places of the lattice, up to this fraction of a cell, < 0.3; as BoxShape::distortion, by the
-  /// number of the corner of the cubic cells, linear between them; none at both ends along z.
+  /// number of the corner of the cubic cells, linear between them; none across the outer faces.
   double irregularity = 0;
   std::uint64_t seed = 1;
 };

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# The scenes of the paper's experiments: their first steps are the same on 1, 2 and 3 ranks, to the bit, and the ledger closes.
+# The scenes of the paper's experiments: their first steps are the same on 1 and 3 ranks, to the bit, and the ledger closes.
 source "$(dirname "$0")/common.sh"
 first_steps() {
   local name=$1
   shift
-  for ranks in 1 2 3; do
+  for ranks in 1 3; do
     run $ranks "$scenes/$name/scene.yaml" $name$ranks --set output.frames.every="1 s" --set output.checkpoint.every="1 s" "$@"
     same_state ${name}1 $name$ranks
     cmp ${name}1/history.csv $name$ranks/history.csv
@@ -16,6 +16,9 @@ first_steps() {
     END { printf "%s: greatest ledger error %.1e in %d rows\n", name, worst, rows; exit !(rows > 5 && worst <= 1e-11) }' ${name}1/history.csv
 }
 first_steps can-crush --set end_time="50 us" --set output.history.every="10 steps"
+first_steps penetrator --set end_time="8 us" --set output.history.every="2 steps"
+first_steps wing-and-pole --set end_time="60 us" --set output.history.every="2 steps" --set parameters.spacing="40 mm"
+first_steps foam-crush --set end_time="1 us" --set output.history.every="2 steps" --set parameters.cells=2 --set parameters.elements=8
 # One parameter refines the can: eight times as many elements after three doublings.
 "$tenon" check "$scenes/can-crush/scene.yaml" --set parameters.doublings=3 >check.txt
 grep -q "mesh can: .* 14400 elements" check.txt && grep -q "mesh wall: .* 600 elements" check.txt || { cat check.txt; exit 1; }
