@@ -24,7 +24,7 @@ using testing::SphRun;
 using testing::SphScene;
 
 struct Sizes {
-  std::vector<int> vortices{16, 32, 64, 128}, tubes{160, 320, 640, 1280};
+  std::vector<int> vortices{12, 25, 50, 100}, tubes{160, 320, 640, 1280};
   std::string csv = "sph-work-error.csv", png;
 };
 

@@ -5,8 +5,9 @@
 namespace tenon::testing {
 namespace {
 
+/// Hardly damped, particles go on trembling; nothing drifts.
 TEST(HydrostaticsFine, TenSeconds) {
-  expect_rest(end_of_rest({0.02, 1, 1, 10}));
+  expect_rest(end_of_rest({0.02, 1, 1, 10}), 5e-3);
 }
 
 TEST(HydrostaticsFine, GravityGrows) {
