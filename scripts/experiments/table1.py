@@ -15,7 +15,7 @@ machines = ("tflops", "cluster", "here")
 
 
 def values_of(full):
-    return {"parameters.resolution": 3.5} if full else {}
+    return {"parameters.resolution": 4.16} if full else {}
 
 
 @functools.cache
