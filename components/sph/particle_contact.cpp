@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "components/sph/particle_contact.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -62,6 +64,22 @@ void ParticleContact::bring(const Column& column, std::vector<Vec3>& nodes) {
   parts_.home.to_nodes(parts_.decomposition.version(), values, {nodes.data()->data(), 3 * nodes.size()}, 3);
 }
 
+// Places and both velocities in one message. What has yet to come in stays at nothing.
+void ParticleContact::bring_all() {
+  const ParticleData& p = parts_.particles;
+  const std::size_t owned = p.owned();
+  const std::array<const Column*, 3> columns{&p.position, &p.velocity, &p.former_velocity};
+  leaving_.resize(9 * owned), arrived_.resize(9 * position_.size());
+  for (std::size_t i = 0; i < owned; ++i)
+    for (std::size_t k = 0; k < 3; ++k) std::copy_n(columns[k]->data() + 3 * i, 3, &leaving_[9 * i + 3 * k]);
+  parts_.home.to_nodes(parts_.decomposition.version(), leaving_, arrived_, 9);
+  const std::array<std::vector<Vec3>*, 3> nodes{&position_, &velocity_, &former_};
+  for (const LocalIndex n : parts_.mesh.owned_nodes) {
+    const auto i = static_cast<std::size_t>(n);
+    for (std::size_t k = 0; k < 3; ++k) std::copy_n(&arrived_[9 * i + 3 * k], 3, (*nodes[k])[i].data());
+  }
+}
+
 void ParticleContact::initialize() {
   find_surfaces();
   const std::span<const double> mass(parts_.particles.mass.data(), parts_.particles.owned());
@@ -78,9 +96,7 @@ void ParticleContact::initialize() {
 void ParticleContact::begin(double kick) {
   kick_ = kick;
   pushed_ = false;
-  bring(parts_.particles.position, position_);
-  bring(parts_.particles.velocity, velocity_);
-  bring(parts_.particles.former_velocity, former_);
+  bring_all();
   for (std::size_t i = 0; i < watched_.size(); ++i) {
     const auto n = static_cast<std::size_t>(watched_[i]);
     watched_former_[i] = former_[n];

@@ -67,11 +67,13 @@ class ParticleContact final : public ContactParty {
   void find_surfaces();
   Vec3 within(const Vec3& a) const;
   void bring(const Column& column, std::vector<Vec3>& nodes);
+  void bring_all();
 
   Parts parts_;
   std::vector<std::int32_t> surface_;  // of nodes; -1: what does not touch
   std::vector<double> inverse_mass_, radius_, work_;
   std::vector<Vec3> position_, velocity_, former_, impulse_;
+  std::vector<double> leaving_, arrived_;
   std::vector<LocalIndex> watched_;
   std::vector<Vec3> watched_former_;
   std::unique_ptr<ContactFields> fields_;
