@@ -38,20 +38,22 @@ class FluidSums {
       : pass_(pass), records_(pass.states.data()), h_(plain && pass.places.values.size() > 3 ? pass.places[3] : 1) {}
 
   void run() {
-    const ParticleData& p = pass_.particles;
-    for (std::size_t i = 0; i < p.owned(); ++i) {
-      pass_.hits.find<plain>(i, pass_.lists.of(i), pass_.places.data(), K::support);
-      const Self self = self_of(i);
-      Sums sums;
-      if (pass_.morris)
-        add<true>(self, sums);
-      else
-        add<false>(self, sums);
-      finish(i, self, sums);
-    }
+    for (const NeighbourLists::Run& run : pass_.lists.runs())
+      for (std::size_t i = run.first; i < run.last; ++i) sum_of(i);
   }
 
  private:
+  TENON_KERNEL void sum_of(std::size_t i) {
+    pass_.hits.find<plain>(i, pass_.lists.of(i), pass_.places.data(), K::support);
+    const Self self = self_of(i);
+    Sums sums;
+    if (pass_.morris)
+      add<true>(self, sums);
+    else
+      add<false>(self, sums);
+    finish(i, self, sums);
+  }
+
   TENON_KERNEL Self self_of(std::size_t i) const {
     const double* const r = records_ + FluidRecord::size * i;
     const FluidBody& body = pass_.bodies[static_cast<std::size_t>(pass_.particles.body[i])];
@@ -113,6 +115,12 @@ class FluidSums {
         uz = self.felt[2] - (wall ? sz : other.vz);
         approach = ux * pair.dx + uy * pair.dy + uz * pair.dz;
       }
+    if constexpr (plain && !morris) {
+      // The mean of equals.
+      const WidePack drag = pair.f * (self.viscosity * pair.approach) / (pair.r2 + 0.01 * h_ * h_);
+      sums.vx += drag * pair.dx, sums.vy += drag * pair.dy, sums.vz += drag * pair.dz;
+      return;
+    }
     const WidePack both = self.viscosity * other.viscosity, sum = self.viscosity + other.viscosity + 1e-300;
     if constexpr (morris) {
       const WidePack drag = 4.0 * pair.f * both / sum;

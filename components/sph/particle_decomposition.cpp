@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
+#include <type_traits>
 #include <utility>
 
 namespace tenon {
@@ -23,9 +25,17 @@ ExchangeItem travelling(const Values& from, Values& to, std::size_t components =
 template <typename Values>
 void permute(Values& values, std::span<const LocalIndex> order, std::size_t components, Values& room) {
   room.resize(order.size() * components);
-  for (std::size_t i = 0; i < order.size(); ++i)
-    std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(order[i]) * components),
-                components, room.begin() + static_cast<std::ptrdiff_t>(i * components));
+  const auto take = [&](auto count) {
+    for (std::size_t i = 0; i < order.size(); ++i)
+      std::copy_n(values.data() + static_cast<std::size_t>(order[i]) * count, count, room.data() + i * count);
+  };
+  // Of lengths that the compiler knows, without a call for each.
+  if (components == 1)
+    take(std::integral_constant<std::size_t, 1>());
+  else if (components == 3)
+    take(std::integral_constant<std::size_t, 3>());
+  else
+    take(components);
   std::copy(room.begin(), room.end(), values.begin());
 }
 
@@ -34,6 +44,15 @@ void permute(Values& values, std::span<const LocalIndex> order, std::size_t comp
 constexpr double pairs_of_a_move = 200;
 // Steps for which a new balance is taken to last.
 constexpr double steps_of_balance = 100;
+// Greatest over mean work: above the first parts are made anew at the next renewal, above the second at once.
+constexpr double worth_balancing = 1.02, greatest_imbalance = 1.04;
+
+// Particles of a rank; of fewer, one more or less is a percent.
+constexpr std::int64_t enough_to_balance = 100;
+
+// So many may be anywhere. A search looks at six distances for each pair that it lists, and at more of them where
+// smoothing lengths differ.
+constexpr std::int64_t particles_that_never_crowd = 6000, tests_of_a_pair = 70;
 
 }  // namespace
 
@@ -59,6 +78,9 @@ void ParticleDecomposition::renew() {
 
 void ParticleDecomposition::arrange() {
   const double length = greatest_length();
+  const std::int64_t all = comm_.sum(static_cast<std::int64_t>(data_.owned()));
+  most_.pairs = options_.most_neighbours * (all + particles_that_never_crowd);
+  most_.tested = tests_of_a_pair * most_.pairs;
   reach_ = options_.support * length;
   skin_ = options_.skin * options_.support * length;
   for (const ParticleDomain::Axis& axis : images_.domain().axes)
@@ -68,15 +90,58 @@ void ParticleDecomposition::arrange() {
           fmt::format("{}: the period of {} m is shorter than the support of the kernel and its skin, {} m; take more "
                       "particles across it",
                       name_, axis.period(), reach_ + skin_));
-  // The first parts know nothing of the work, which is counted once there are lists.
-  const int rounds = version_ == 0 && comm_.size() > 1 ? 2 : 1;
+  // The first parts know nothing of the work, and later ones only that of the lists before: it is counted once there
+  // are lists, and parts that are not good for it are made again.
+  const int rounds = comm_.size() > 1 && (version_ == 0 || all >= enough_to_balance * comm_.size()) ? 2 : 1;
   for (int round = 0; round < rounds; ++round) {
     migrate();
     sort();
     find_ghosts();
     search(false);
+    refuse_crowds();
     ++version_;
+    if (rounds > 1 && imbalance_of_work() < greatest_imbalance) break;
   }
+}
+
+// Lists that grow with the square of the particles would take all memory, or all time.
+void ParticleDecomposition::refuse_crowds() const {
+  const std::int64_t pairs = comm_.sum(static_cast<std::int64_t>(lists_.pairs()));
+  const bool crowded = pairs > most_.pairs, too_slow = !crowded && comm_.sum(lists_.tested()) > most_.tested;
+  if (!crowded && !too_slow) return;
+  const auto neighbours = [&](std::size_t i) { return static_cast<double>(lists_.of(i).size()); };
+  const auto worth = [&](std::size_t i) { return too_slow ? data_.reference_length[i] : neighbours(i); };
+  std::size_t first = data_.owned();
+  for (std::size_t i = 0; i < data_.owned(); ++i)
+    if (first == data_.owned() || worth(i) > worth(first) ||
+        (worth(i) == worth(first) && data_.ids[i] < data_.ids[first]))
+      first = i;
+  const double mine = first < data_.owned() ? worth(first) : -1, greatest = comm_.max(mine);
+  const GlobalId id = comm_.min(mine == greatest ? data_.ids[first] : std::numeric_limits<GlobalId>::max());
+  std::optional<Error> error;
+  if (mine == greatest && data_.ids[first] == id) {
+    const Vec3 x = data_.reference.vec(first);
+    error.emplace(
+        ExitCode::unstable,
+        too_slow
+            ? fmt::format("{}: the smoothing length of particle {} near ({:.4g}, {:.4g}, {:.4g}) is {:.4g} m, so long "
+                          "beside the others that nearly all pairs have to be tested; take particles "
+                          "whose sizes differ less, or keep lengths constant",
+                          name_, id + 1, x[0], x[1], x[2], data_.reference_length[first])
+            : fmt::format("{}: particle {} near ({:.4g}, {:.4g}, {:.4g}) has at least {:.0f} neighbours, and all "
+                          "together more than {:.0e}; particles lie on top of each other or their supports have grown "
+                          "over everything: look at the last frame, take a smaller `smoothing`, a smaller "
+                          "time_step.cfl, or a stiffer equation of state",
+                          name_, id + 1, x[0], x[1], x[2], neighbours(first), static_cast<double>(most_.pairs)));
+  }
+  comm_.throw_if_any(error);
+}
+
+double ParticleDecomposition::imbalance_of_work() const {
+  const auto mine =
+      static_cast<std::int64_t>(lists_.pairs() + static_cast<std::size_t>(pairs_of_a_particle) * data_.owned());
+  const std::int64_t all = comm_.sum(mine);
+  return all > 0 ? static_cast<double>(comm_.max(mine)) * comm_.size() / static_cast<double>(all) : 1;
 }
 
 // What was counted when the lists were last made decides on the weights.
@@ -94,9 +159,10 @@ std::vector<int> ParticleDecomposition::destinations() {
   counts_.imbalance = mean > 0 ? static_cast<double>(most) / mean : 1;
   const double particles = static_cast<double>(comm_.sum(static_cast<std::int64_t>(owned))) / comm_.size();
   const double gain = (static_cast<double>(most) - mean) * steps_of_balance;
-  if (has_parts_ && gain < pairs_of_a_move * particles * (1 - 1 / counts_.imbalance) + pairs_of_a_particle)
+  const bool may_stay = has_parts_ && !options_.always_rebalance;
+  if (may_stay && gain < pairs_of_a_move * particles * (1 - 1 / counts_.imbalance) + pairs_of_a_particle)
     return by_present_parts();
-  if (has_parts_ && counts_.imbalance < 1.02) return by_present_parts();
+  if (may_stay && counts_.imbalance < worth_balancing) return by_present_parts();
   std::vector<Vec3> places(owned);
   for (std::size_t i = 0; i < owned; ++i) places[i] = data_.reference.vec(i);
   has_parts_ = true;
@@ -294,9 +360,9 @@ void ParticleDecomposition::search(bool again) {
   }
   const ListedPoints points{places_, reaches_, data_.ids, data_.image, data_.owned()};
   if (again)
-    lists_.build_again(points, 0);
+    lists_.build_again(points, 0, most_);
   else
-    lists_.build(points, reach_, skin_);
+    lists_.build(points, reach_, skin_, most_);
 }
 
 bool ParticleDecomposition::used_up() const {
@@ -321,6 +387,7 @@ bool ParticleDecomposition::follow() {
     const std::array<Column*, 2> columns{&data_.position, &data_.length};
     refresh(columns);
     search(true);
+    refuse_crowds();
   }
   return false;
 }

@@ -17,16 +17,18 @@
 namespace tenon {
 
 struct DecompositionOptions {
-  double support = 2;          ///< of the kernel, in smoothing lengths
-  double skin = 0.1;           ///< of the greatest support
-  bool always_search = false;  ///< skips forced off: lists are made again in every step, with the same bits
+  double support = 2;                   ///< of the kernel, in smoothing lengths
+  double skin = 0.1;                    ///< of the greatest support
+  bool always_search = false;           ///< skips forced off: lists are made again in every step, with the same bits
+  bool always_rebalance = false;        ///< parts are made anew with every order: for tests
+  std::int64_t most_neighbours = 1500;  ///< of a particle, on average: beyond, runs stop
 };
 
 /// Counts for the report.
 struct DecompositionCounts {
   std::int64_t renewals = 0, rebalances = 0, moved = 0;
   std::int64_t refreshes = 0, refreshed = 0;  ///< of ghosts: calls, and values of each ghost, were there any
-  double imbalance = 1;  ///< greatest over mean work of a rank, when the order was last chosen
+  double imbalance = 1;                       ///< greatest over mean work of a rank, when the order was last chosen
 };
 
 /// Recursive coordinate bisection of the particles, weighted by their neighbours. When a skin is used up, particles go
@@ -40,7 +42,8 @@ class ParticleDecomposition {
   ParticleDecomposition(const Communicator& comm, std::string name, ParticleData& data, const ParticleDomain& domain,
                         const DecompositionOptions& options);
 
-  /// Collective. Chooses the order anew for the present places. Throws Error(usage) where a period is too short.
+  /// Collective. Chooses the order anew for the present places. Throws Error(usage) where a period is too short, and
+  /// Error(unstable) where pairs are too many.
   void renew();
   /// Collective. The same for the places in `reference`: of the start, and of a checkpoint.
   void arrange();
@@ -64,6 +67,8 @@ class ParticleDecomposition {
 
  private:
   double greatest_length() const;
+  double imbalance_of_work() const;
+  void refuse_crowds() const;
   std::vector<int> destinations();
   std::vector<int> by_present_parts() const;
   void migrate();
@@ -83,6 +88,7 @@ class ParticleDecomposition {
   ExchangePlan ghosts_;
   bool any_ghosts_ = false, any_images_ = false;  // on any rank; here
   NeighbourLists lists_;
+  NeighbourLimits most_;
   std::vector<double> reaches_;
   std::vector<Vec3> places_;
   mutable DecompositionCounts counts_;

@@ -109,6 +109,8 @@ struct SphOptions {
   SphTimeStep time_step;
   double skin = 0.1;  ///< of the support: how far lists reach beyond it
   bool always_search = false;
+  bool always_rebalance = false;        ///< for tests
+  std::int64_t most_neighbours = 1500;  ///< DecompositionOptions
 
   /// For programs; a scene cannot give it: shifts each particle at the start (m), by its place.
   std::function<Vec3(const Vec3&)> displaced;

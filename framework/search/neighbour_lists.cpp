@@ -9,13 +9,14 @@
 
 namespace tenon {
 
-void NeighbourLists::build(const ListedPoints& points, double greatest_reach, double skin) {
+void NeighbourLists::build(const ListedPoints& points, double greatest_reach, double skin,
+                           const NeighbourLimits& most) {
   sort(points, cells(greatest_reach, skin));
-  fill(points, skin);
+  fill(points, skin, most);
 }
 
-void NeighbourLists::build_again(const ListedPoints& points, double skin) {
-  fill(points, skin);
+void NeighbourLists::build_again(const ListedPoints& points, double skin, const NeighbourLimits& most) {
+  fill(points, skin, most);
 }
 
 // The owned ones are in order; the copies are sorted and merged with them.
@@ -36,9 +37,25 @@ void NeighbourLists::sort(const ListedPoints& points, const CellGrid& grid) {
   std::inplace_merge(order_.begin(), copies, order_.end(), before);
   keys_.resize(count);
   for (std::size_t m = 0; m < count; ++m) keys_[m] = keys[static_cast<std::size_t>(order_[m])];
+  find_runs(std::span(keys).first(points.owned));
 }
 
-void NeighbourLists::fill(const ListedPoints& points, double skin) {
+// A row of cells goes through the whole domain, and three layers of rows are more than a cache holds; three layers of a
+// tile are less.
+void NeighbourLists::find_runs(std::span<const CellGrid::Key> owned) {
+  runs_.clear();
+  for (std::size_t i = 0; i < owned.size(); ++i) {
+    const bool same = i > 0 && CellGrid::tile(owned[i]) == CellGrid::tile(owned[i - 1]) &&
+                      owned[i] - owned[i - 1] < CellGrid::step_y / 2;
+    if (same)
+      runs_.back().last = i + 1;
+    else
+      runs_.push_back({i, i + 1});
+  }
+  std::ranges::stable_sort(runs_, {}, [&](const Run& run) { return CellGrid::tile(owned[run.first]); });
+}
+
+void NeighbourLists::fill(const ListedPoints& points, double skin, const NeighbourLimits& most) {
   const std::size_t count = keys_.size(), room = count + wide_pack_width;
   for (std::vector<double>* const array : {&x_, &y_, &z_}) array->resize(room);
   order_.resize(room, 0);
@@ -51,7 +68,7 @@ void NeighbourLists::fill(const ListedPoints& points, double skin) {
   begin_.assign(1, 0);
   begin_.reserve(points.owned + 1);
   std::size_t end = 0;
-  longest_ = 0;
+  longest_ = 0, tested_ = 0;
   first_.fill(0), last_.fill(0);
   CellGrid::Key cell = 0;
   for (std::size_t m = 0; m < count; ++m) {
@@ -64,7 +81,8 @@ void NeighbourLists::fill(const ListedPoints& points, double skin) {
       while (last_[row] < count && keys_[last_[row]] <= middle + CellGrid::step_x) ++last_[row];
     }
     cell = keys_[m];
-    end = append(m, skin, end);
+    for (std::size_t row = 0; row < rows; ++row) tested_ += static_cast<std::int64_t>(last_[row] - first_[row]);
+    if (tested_ <= most.tested && static_cast<std::int64_t>(end) <= most.pairs) end = append(m, skin, end);
     longest_ = std::max(longest_, end - begin_.back());
     begin_.push_back(end);
   }

@@ -31,6 +31,8 @@ void run(const BalanceSize& size) {
   const Communicator comm = Communicator::world();
   testing::SphRun run(testing::water({1, 2, 0}, {4, 3, 0}, size.spacing, 0.05), comm);
   if (comm.rank() == 0) fmt::print("t, steps, renewals, new parts, work after renewals: mean and greatest imbalance\n");
+  const double start = imbalance(run);
+  if (comm.rank() == 0) fmt::print("0.000, 0, 0, 0, {:.4f}, {:.4f}\n", start, start);
   for (int stage = 1; stage <= size.stages; ++stage) {
     double worst = 1, total = 0;
     std::int64_t looks = 0, version = -1;

@@ -87,6 +87,37 @@ TEST(Extremes, AllInOnePlace) {
   expect_sound(run, momentum);
 }
 
+std::string last_words(const SphScene& scene) {
+  try {
+    SphRun(scene).steps(3);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::unstable);
+    return error.what();
+  }
+  return "";
+}
+
+/// So many in one place that lists would grow with their square.
+TEST(Extremes, TooManyInOnePlaceStopTheRun) {
+  SphScene scene = square(64);
+  scene.options.displaced = [](const Vec3& x) { return Vec3{0.5, 0.5, 0} - x; };
+  scene.options.most_neighbours = 14;
+  const std::string words = last_words(scene);
+  EXPECT_NE(words.find("particle 1 near (0.5, 0.5, 0) has at least"), std::string::npos) << words;
+}
+
+/// One support that covers everything makes each cell as large: few pairs, but all are tested.
+TEST(Extremes, ASupportOverEverythingStopsTheRun) {
+  SphScene scene = square(64);
+  scene.options.most_neighbours = 14;
+  scene.options.skin = 1e-3;  // of the greatest support, so that lists do not grow with it
+  scene.end = 1e-3;
+  EXPECT_EQ(last_words(scene), "") << "while all are alike";
+  scene.mesh.volumes[77] = 4;
+  const std::string words = last_words(scene);
+  EXPECT_NE(words.find("the smoothing length of particle 78 near"), std::string::npos) << words;
+}
+
 /// Water at 5 km/s on water at rest, shocks by the Hugoniot.
 TEST(Extremes, AJetAtFiveKilometresPerSecond) {
   SphScene scene = gas_scene(2);

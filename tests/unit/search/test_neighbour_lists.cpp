@@ -51,6 +51,10 @@ void expect_all_pairs(Points p, double skin) {
     pairs += found.size();
   }
   EXPECT_EQ(lists.pairs(), pairs);
+  std::vector<int> visits(p.owned, 0);
+  for (const NeighbourLists::Run& run : lists.runs())
+    for (std::size_t i = run.first; i < run.last; ++i) ++visits[i];
+  EXPECT_EQ(std::ranges::count(visits, 1), std::ssize(visits));
 }
 
 Points random_points(std::size_t count, std::size_t owned, double size, double spread, unsigned seed) {
