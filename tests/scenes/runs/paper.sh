@@ -19,6 +19,7 @@ first_steps can-crush --set end_time="50 us" --set output.history.every="10 step
 first_steps penetrator --set end_time="8 us" --set output.history.every="2 steps"
 first_steps wing-and-pole --set end_time="60 us" --set output.history.every="2 steps" --set parameters.spacing="40 mm"
 first_steps foam-crush --set end_time="1 us" --set output.history.every="2 steps" --set parameters.cells=2 --set parameters.elements=8
+first_steps rod-through-plate --set end_time="20 us" --set output.history.every="2 steps" --set parameters.layers=6
 # One parameter refines the can: eight times as many elements after three doublings.
 "$tenon" check "$scenes/can-crush/scene.yaml" --set parameters.doublings=3 >check.txt
 grep -q "mesh can: .* 14400 elements" check.txt && grep -q "mesh wall: .* 600 elements" check.txt || { cat check.txt; exit 1; }
