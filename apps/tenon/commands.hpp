@@ -22,11 +22,12 @@ struct RunArguments {
 
 struct PlanArguments {
   std::string scene;
-  std::vector<std::string> settings;  ///< key.path=value
-  std::vector<int> ranks;             ///< to predict for; empty: only what is here
-  std::vector<std::string> machines{"here"}, decompositions{"own"};
-  std::string csv;                    ///< file for the predictions; empty: none
+  std::vector<std::string> settings;                  ///< key.path=value
+  std::vector<int> ranks;                             ///< to predict for; empty: only what is here
+  std::vector<std::string> machines, decompositions;  ///< empty: "here"; "own"
+  std::string csv;                                    ///< file for the predictions; empty: none
   std::string until;                  ///< time to which steps are taken before the trial, as "1 ms"; empty: none
+  std::string measure_until;          ///< time to which steps are measured; empty: as many as `trial` says
   std::int64_t after = 0, trial = 0;  ///< steps before the trial, and of it (0: a second)
 };
 

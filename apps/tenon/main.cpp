@@ -44,19 +44,18 @@ void add_plan_options(CLI::App& plan, tenon::PlanArguments& arguments) {
       ->check(CLI::Range(1, 65536));
   plan.add_option("--machine", arguments.machines,
                   "Machine that the prediction is for: here, tflops (1997), cluster, or a YAML file with latency, "
-                  "bandwidth, slowness; a list is allowed")
-      ->delimiter(',')
-      ->capture_default_str();
+                  "bandwidth, slowness; a list is allowed (default: here)")
+      ->delimiter(',');
   plan.add_option("--decomposition", arguments.decompositions,
-                  "Of contact and particles, to compare: own, slices, static; a list is allowed")
-      ->delimiter(',')
-      ->capture_default_str();
+                  "Of contact and particles, to compare: own, slices, static; a list is allowed (default: own)")
+      ->delimiter(',');
   plan.add_option("--csv", arguments.csv, "Write the prediction, a row per phase");
   plan.add_option("--after", arguments.after, "Run so many steps first, for a state that stands for the run")
       ->check(CLI::NonNegativeNumber);
   plan.add_option("--until", arguments.until, "Run to this time first, as '0.1 ms'");
   plan.add_option("--trial", arguments.trial, "Measure so many steps (default: as many as fit in a second)")
       ->check(CLI::NonNegativeNumber);
+  plan.add_option("--measure-until", arguments.measure_until, "Measure all steps to this time instead, as '0.1 ms'");
   plan.footer(
       "Example, the scaling of a scene from 64 to 1024 ranks of today's cluster:\n"
       "  tenon plan scene.yaml --ranks 64,128,256,512,1024 --machine cluster --after 100 --csv scaling.csv");

@@ -87,7 +87,8 @@ void plan_scene(const Communicator& comm, const PlanArguments& arguments) {
       "shrinks as elements deform); memory {:.0f} MiB in all, of which transfer maps {:.1f} MiB",
       predicted, predicted * trial.seconds, comm.size(), trial.steps, megabytes(comm.sum(peak_memory())),
       megabytes(comm.sum(maps)));
-  if (arguments.trial > 0 || !arguments.ranks.empty()) print_trial(log, comm, trial);
+  if (arguments.trial > 0 || !arguments.measure_until.empty() || !arguments.ranks.empty())
+    print_trial(log, comm, trial);
   if (!arguments.ranks.empty()) plan_scaling(built, arguments, trial);
 }
 

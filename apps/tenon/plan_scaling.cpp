@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "apps/tenon/plan_scaling.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
+#include <fstream>
 #include <numeric>
 #include <stdexcept>
 
@@ -93,23 +96,51 @@ StepLoads loads_of(BuiltScene& built, const std::vector<MeshParts>& meshes, cons
 
 }  // namespace
 
-TrialOptions trial_options(const PlanArguments& arguments) {
-  TrialOptions options{arguments.after, 0, arguments.trial};
-  if (arguments.until.empty()) return options;
+namespace {
+
+double time_of(const std::string& text, const char* option) {
+  if (text.empty()) return 0;
   try {
-    options.until = scene::parse_quantity(arguments.until, "s");
+    return scene::parse_quantity(text, "s");
   } catch (const std::invalid_argument& problem) {
-    throw Error(ExitCode::usage, std::string("plan --until: ") + problem.what());
+    throw Error(ExitCode::usage, fmt::format("plan {}: {}", option, problem.what()));
   }
+}
+
+/// A file that cannot be written is found before the work, not after it.
+void try_csv(const std::string& path) {
+  if (!path.empty() && !std::ofstream(path, std::ios::app)) throw Error(ExitCode::file, path + ": cannot be written");
+}
+
+}  // namespace
+
+TrialOptions trial_options(const PlanArguments& arguments) {
+  TrialOptions options{arguments.after, time_of(arguments.until, "--until"), arguments.trial,
+                       time_of(arguments.measure_until, "--measure-until")};
+  if (options.end > 0 && options.steps > 0)
+    throw Error(ExitCode::usage, "plan: --trial and --measure-until both say how long is measured; give one of them");
+  if (options.end > 0 && options.end <= options.until)
+    throw Error(ExitCode::usage, "plan --measure-until: is not after --until; nothing would be measured");
   return options;
 }
 
 void check_plan(const Communicator& comm, const PlanArguments& arguments) {
   trial_options(arguments);
-  if (arguments.ranks.empty()) return;
+  if (arguments.ranks.empty()) {
+    const char* given = !arguments.machines.empty()         ? "--machine"
+                        : !arguments.decompositions.empty() ? "--decomposition"
+                        : !arguments.csv.empty()            ? "--csv"
+                                                            : nullptr;
+    if (given)
+      throw Error(ExitCode::usage, fmt::format("plan {}: says nothing without --ranks; add the numbers of ranks to "
+                                               "predict for, as --ranks 64,256",
+                                               given));
+    return;
+  }
   if (comm.size() > 1) throw Error(ExitCode::usage, "plan --ranks: decomposes in one process; start it without mpirun");
   for (const std::string& name : arguments.machines) find_machine(name);
   for (const std::string& name : arguments.decompositions) decomposition_of(name);
+  try_csv(arguments.csv);
 }
 
 void plan_scaling(BuiltScene& built, const PlanArguments& arguments, const Trial& trial) {
@@ -117,8 +148,10 @@ void plan_scaling(BuiltScene& built, const PlanArguments& arguments, const Trial
   if (trial.steps == 0) throw Error(ExitCode::usage, "plan --ranks: the run is over before the trial steps");
   std::vector<Machine> machines;
   for (const std::string& name : arguments.machines) machines.push_back(find_machine(name));
+  if (machines.empty()) machines.push_back(find_machine("here"));
   std::vector<NamedDecomposition> decompositions;
   for (const std::string& name : arguments.decompositions) decompositions.push_back(decomposition_of(name));
+  if (decompositions.empty()) decompositions.push_back(decomposition_of("own"));
   std::vector<StepLoads> steps;
   for (const int ranks : arguments.ranks) {
     std::vector<MeshParts> meshes;

@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 
 #include <chrono>
+#include <limits>
 
 #include "components/contact/contact.hpp"
 #include "components/sph/sph.hpp"
@@ -64,10 +65,13 @@ Trial try_steps(Simulation& simulation, const TrialOptions& options) {
   const double processor_start = processor_time();
   const auto elapsed = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
   const auto counts = counted(simulation), seconds = seconds_of_phases(simulation);
-  const std::int64_t most = options.steps > 0 ? options.steps : greatest_trial_steps;
+  const std::int64_t most = options.end > 0     ? std::numeric_limits<std::int64_t>::max()
+                            : options.steps > 0 ? options.steps
+                                                : greatest_trial_steps;
   Trial trial;
   for (; trial.steps < most && !simulation.done(); ++trial.steps) {
-    if (options.steps == 0 && comm.max(elapsed()) > trial_seconds) break;
+    if (options.end > 0 && simulation.time() >= options.end) break;
+    if (options.steps == 0 && options.end <= 0 && comm.max(elapsed()) > trial_seconds) break;
     simulation.step();
   }
   if (trial.steps == 0) return trial;

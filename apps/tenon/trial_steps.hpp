@@ -14,6 +14,7 @@ struct TrialOptions {
   std::int64_t after = 0;  ///< steps before those that are measured
   double until = 0;        ///< s: and those to this time
   std::int64_t steps = 0;  ///< measured; 0: as many as fit in a second
+  double end = 0;          ///< s: measured to this time instead, if positive
 };
 
 /// What was measured, per step of the leader; the same on every rank.

@@ -74,6 +74,7 @@ def settings(values):
 @dataclass
 class Trial:
     """What `tenon plan` measured, per step."""
+    steps: int
     clock: float
     processor: float
     phases: dict = field(default_factory=dict)
@@ -81,8 +82,8 @@ class Trial:
 
 
 def read_trial(text):
-    match = re.search(r"measured per step of \d+ on \d+ ranks: (\S+) s by the clock, (\S+) s of the processor", text)
-    trial = Trial(float(match[1]), float(match[2]))
+    match = re.search(r"measured per step of (\d+) on \d+ ranks: (\S+) s by the clock, (\S+) s of the processor", text)
+    trial = Trial(int(match[1]), float(match[2]), float(match[3]))
     for name, seconds in re.findall(r"^  (\S.*?) +(\d\.\d+e[+-]\d+) s$", text, re.M):
         trial.phases[name] = float(seconds)
     for name, count in re.findall(r"^  (\S.*?) +(\d+\.\d{4})$", text, re.M):
@@ -90,10 +91,14 @@ def read_trial(text):
     return trial
 
 
-def plan(scene, name, values, ranks=(), machines=("here",), decompositions=("own",), until=None, after=0, trial=20, on=1):
-    """`tenon plan` of a scene: what was measured, and the rows of the prediction."""
+def plan(scene, name, values, ranks=(), machines=("here",), decompositions=("own",), until=None, during=None, trial=20, on=1):
+    """`tenon plan` of a scene, measured for some steps after `until`, or from the start to the time `during`: what was measured, and the rows of the prediction."""
     table = out / f"{name}.csv"
-    command = [tenon, "plan", scenes / scene / "scene.yaml", *settings(values), "--trial", trial, "--after", after]
+    command = [tenon, "plan", scenes / scene / "scene.yaml", *settings(values)]
+    if during:
+        command += ["--measure-until", during]
+    else:
+        command += ["--trial", trial]
     if until:
         command += ["--until", until]
     if ranks:
@@ -119,6 +124,10 @@ def one(rows, phase, ranks, decomposition="own", machine=None):
         if r["phase"].endswith(phase) and r["ranks"] == ranks and r["decomposition"] == decomposition and machine in (None, r["machine"]):
             return r
     raise KeyError(phase)
+
+
+def verdict(met):
+    return "met" if met else "**missed**"
 
 
 def balance(row):

@@ -2,6 +2,7 @@
 """The argument itself: one static decomposition, slices, and separate bisections, side by side."""
 import re
 
+import figure3
 import table1
 from common import balance, copies, one, plan, seconds, simulate, table
 
@@ -39,15 +40,29 @@ def run_so(scene, values, ranks):
     return table(["decomposition", "search max/mean", "push-back max/mean", "messages a step", "kB a step"], body)
 
 
+def judge(rows, ranks):
+    """Whether separate bisections are the fastest of the three, and where not."""
+    lines = []
+    for what, groups in (("contact", {"contact"}), ("the step", None)):
+        ahead = {p: min(names[:2], key=lambda d: seconds(rows, "cluster", p, d, groups=groups)) for p in ranks}
+        gain = {p: seconds(rows, "cluster", p, ahead[p], groups=groups) / seconds(rows, "cluster", p, "own", groups=groups) for p in ranks}
+        lines.append(f"{what} " + ", ".join(f"{gain[p]:.2f} on {p}" for p in ranks))
+    touched = {p: (balance(one(rows, "contact: touch", p, "static")), balance(one(rows, "contact: touch", p, "own"))) for p in ranks}
+    return (f"\nThe faster of static and slices over separate bisections, by predicted time (above 1: bisections are faster): {'; '.join(lines)}. Pairs of the busiest rank over the "
+            "mean, static and separate: " + ", ".join(f"{a:.1f} and {b:.1f} on {p}" for p, (a, b) in touched.items()) + ".\n")
+
+
 def measure(full):
     text = "## One static decomposition, slices, separate bisections\n\n"
-    text += "`static`: search and push-back where the elements are, particles where they were at first. `slices`: slabs across the longest axis. `own`: a bisection for each.\n"
-    ranks = (64, 256, 1024) if full else (16, 64, 256)
-    cases = [("can-crush", {"parameters.doublings": 8 if full else 4}, "0.05 ms"), ("bird-strike", {}, "0.15 ms")]
-    for scene, values, until in cases:
-        text += f"\n`{scene}`{' ' + str(values) if values else ''} at {until}, predicted for machine cluster from decompositions for each number of ranks:\n\n"
-        _, rows, _ = plan(scene, f"decompositions-{scene}", values, ranks, ("cluster",), names, until=until, trial=40)
-        text += counted(rows, ranks)
-    text += f"\n`penetrator`{' ' + str(table1.values_of(full)) if full else ''} at {table1.until}, likewise:\n\n" + counted(table1.predictions(full)[1], (64, 256, 1024))
+    text += "`static`: search and push-back where the elements are, particles where they were at first. `slices`: slabs across the longest axis. `own`: a bisection for each. "
+    text += "Predicted for machine cluster from decompositions for each number of ranks.\n"
+    ranks = figure3.compared_ranks(full)
+    can = figure3.measured_at(figure3.largest(full), ranks)[1]
+    text += f"\n`can-crush` with {figure3.largest(full)} doublings after {figure3.during}:\n\n" + counted(can, ranks) + judge(can, ranks)
+    bird = plan("bird-strike", "decompositions-bird-strike", {}, ranks, ("cluster",), names, until="0.15 ms", trial=40)[1]
+    text += "\n`bird-strike` at 0.15 ms:\n\n" + counted(bird, ranks) + judge(bird, ranks)
+    penetrator = table1.predictions(full)[1]
+    text += f"\n`penetrator`{' ' + str(table1.values_of(full)) if full else ''} at {table1.until}:\n\n" + counted(penetrator, (64, 256, 1024))
+    text += judge(penetrator, (64, 256, 1024))
     text += "\n`can-crush` to 0.03 ms on 8 ranks, as run (contact.decomposition); the answer is the same:\n\n"
     return text + run_so("can-crush", {"end_time": "0.03 ms"}, 8)

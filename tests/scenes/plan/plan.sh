@@ -15,4 +15,11 @@ awk -F, 'NR > 1 { phases[$1 "," $2 "," $3]++ } END { for (k in phases) { count++
 awk -F, '$3 == 1 && $1 == "cluster" && $6 != $8 { bad = 1 } END { exit bad }' scaling.csv
 if "$tenon" plan "$scenes/bird-strike/scene.yaml" --ranks 2 --trial 1 --machine abacus 2>refusal.txt >/dev/null; then exit 1; fi
 grep -q "machine 'abacus': expected here, tflops, cluster" refusal.txt
+if "$tenon" plan "$scenes/bird-strike/scene.yaml" --trial 1 --machine cluster 2>refusal.txt >/dev/null; then exit 1; fi
+grep -q -- "plan --machine: says nothing without --ranks" refusal.txt
+if "$tenon" plan "$scenes/bird-strike/scene.yaml" --ranks 2 --trial 1 --csv nowhere/scaling.csv 2>refusal.txt >said.txt; then exit 1; fi
+grep -q "nowhere/scaling.csv: cannot be written" refusal.txt
+! grep -q "component" said.txt  # before any work
+"$tenon" plan "$scenes/bouncing-cube/scene.yaml" --measure-until "0.1 ms" >plan.txt
+grep -q "measured per step of [1-9]" plan.txt
 echo "1 passed, 0 failed"
