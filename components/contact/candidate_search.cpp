@@ -39,7 +39,8 @@ CandidateSearch::CandidateSearch(const Communicator& comm, const ContactSurfaces
     : comm_(comm),
       surfaces_(surfaces),
       face_search_(comm, decomposition, "contact search"),
-      edge_search_(comm, decomposition, "contact edge search") {}
+      edge_search_(comm, decomposition, "contact edge search"),
+      ball_search_(comm, decomposition, "contact particle search") {}
 
 Vec3 CandidateSearch::place(const SurfaceNode& node) const {
   return surfaces_.parties()[static_cast<std::size_t>(node.party)]
@@ -89,6 +90,7 @@ void CandidateSearch::run(double dt) {
   surfaces_.around_nodes(face_normal_, around_);
   find_sharp_edges();
   edge_search_.find_within(edge_boxes_, edge_edges_);
+  find_balls();
   sought_ = true;
 }
 
@@ -188,11 +190,13 @@ void CandidateSearch::find_sharp_edges() {
 
 std::int64_t CandidateSearch::memory() const {
   return static_cast<std::int64_t>(
-      (node_boxes_.capacity() + face_boxes_.capacity() + edge_boxes_.capacity()) * sizeof(Box) +
+      (node_boxes_.capacity() + face_boxes_.capacity() + edge_boxes_.capacity() + ball_boxes_[0].capacity() +
+       ball_boxes_[1].capacity()) *
+          sizeof(Box) +
       sought_nodes_.capacity() * sizeof(SoughtNode) + outward_.capacity() * sizeof(Vec3) +
       (planes_.capacity() + edge_planes_.capacity()) * sizeof(FacePlane) +
       (skin_.capacity() + corner_skin_.capacity() + face_skin_.capacity()) * sizeof(double) +
-      (node_faces_.capacity() + edge_edges_.capacity()) * sizeof(BoxPair));
+      (node_faces_.capacity() + edge_edges_.capacity() + ball_balls_.capacity()) * sizeof(BoxPair));
 }
 
 }  // namespace tenon::contact

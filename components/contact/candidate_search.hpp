@@ -3,6 +3,7 @@
 // misses nothing.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -47,6 +48,10 @@ class CandidateSearch {
   /// Pairs on this rank, whoever they belong to: (node, face) and (edge, edge).
   const std::vector<BoxPair>& node_faces() const { return node_faces_; }
   const std::vector<BoxPair>& edge_edges() const { return edge_edges_; }
+  /// Particles of different components that may meet; the indices of either side count in balls(side), which are
+  /// indices of ContactSurfaces::nodes().
+  const std::vector<BoxPair>& ball_balls() const { return ball_balls_; }
+  const std::vector<LocalIndex>& balls(std::size_t side) const { return balls_[side]; }
   /// Edges that are sharp, as indices of ContactSurfaces::edges(): what the indices of edge_edges() count in.
   const std::vector<LocalIndex>& sharp_edges() const { return sharp_; }
   /// Of each of the sharp edges: mean outward normal of its faces; zero where both sides count.
@@ -65,7 +70,9 @@ class CandidateSearch {
   std::span<const Box> face_boxes() const { return face_boxes_; }
   std::span<const Box> edge_boxes() const { return edge_boxes_; }
   /// Counted work of the last searches on this rank: box tests.
-  std::int64_t work() const { return face_search_.work().tests + edge_search_.work().tests; }
+  std::int64_t work() const {
+    return face_search_.work().tests + edge_search_.work().tests + ball_search_.work().tests;
+  }
   /// Velocity that all nodes have in common, m/s: their skins move with it. And the time since the search, s.
   const Vec3& common() const { return common_; }
   double since() const { return since_; }
@@ -75,12 +82,13 @@ class CandidateSearch {
   void choose_skins(double dt);
   void make_boxes();
   void find_sharp_edges();
+  void find_balls();
   Vec3 place(const SurfaceNode& node) const;
   Vec3 velocity(const SurfaceNode& node) const;
 
   Communicator comm_;
   const ContactSurfaces& surfaces_;
-  BoxPairSearch face_search_, edge_search_;
+  BoxPairSearch face_search_, edge_search_, ball_search_;
   /// Plane of a face, and its middle.
   struct FacePlane {
     Vec3 normal, centre;
@@ -104,7 +112,9 @@ class CandidateSearch {
   std::vector<Box> node_boxes_, face_boxes_, edge_boxes_;
   std::vector<LocalIndex> sharp_;
   std::vector<Vec3> outward_;
-  std::vector<BoxPair> node_faces_, edge_edges_;
+  std::array<std::vector<LocalIndex>, 2> balls_;
+  std::array<std::vector<Box>, 2> ball_boxes_;
+  std::vector<BoxPair> node_faces_, edge_edges_, ball_balls_;
 };
 
 }  // namespace tenon::contact

@@ -80,6 +80,7 @@ class Contact final : public Interaction {
   // Set-up.
   void read_pairs();
   std::int32_t find_surface(const std::string& name) const;
+  bool are_balls(std::int32_t first, std::int32_t second) const;
   std::string surface_name(std::int32_t surface) const;
   void settle_overlaps();
   void find_overlaps();
@@ -115,6 +116,7 @@ class Contact final : public Interaction {
   void touch_faces(std::size_t begin, std::size_t end, double dt);
   void touch_edges(std::size_t pair, double dt);
   void touch_rigid(std::size_t pair, double time, double dt);
+  void touch_balls(std::size_t pair, double dt);
   void add_constraint(std::size_t pair, const contact::Touch* touch, const contact::EdgeTouch* edges,
                       const contact::RigidTouch* rigid, double dt);
   void hand_over(std::size_t begin, std::size_t end, std::size_t first_constraint);

@@ -110,8 +110,10 @@ void Contact::touch_pairs(double time, double dt) {
       continue;
     else if (kind == 1)
       touch_rigid(begin, time, dt);
-    else
+    else if (kind == 2)
       touch_edges(begin, dt);
+    else
+      touch_balls(begin, dt);
     group_wake_[g] = wakes();
   }
 }
@@ -192,7 +194,7 @@ double Contact::least_distance(const WorkingPair& pair) const {
   };
   const double near = near_of(pair);
   if (pair.key.kind == 1) return rigid_[static_cast<std::size_t>(pair.key.ids[1])].distance(place(0)) - near;
-  const std::int32_t split = pair.key.kind == 0 ? 1 : 2;
+  const std::int32_t split = pair.key.kind == 2 ? 2 : 1;
   Vec3 a, b;
   const double first = ball(0, split, a), second = ball(split, pair.nodes, b);
   return norm(a - b) - first - second - near;
@@ -296,10 +298,12 @@ void Contact::add_constraint(std::size_t q, const Touch* face, const EdgeTouch* 
     c.c = {1 - edges->first, edges->first, edges->second - 1, -edges->second, 0};
   } else {
     c.normal = rigid->normal, c.c[0] = 1;
+    if (pair.key.kind == 3) c.c[1] = -1;
   }
   if (!rigid) balance_moments(c, state_, support);
   c.target = gap >= 0 ? -gap / dt : -removal_rate * gap / dt;
-  c.static_coefficient = rule.friction.static_coefficient, c.kinetic_coefficient = rule.friction.kinetic_coefficient;
+  if (pair.key.kind != 3)  // a force across the line of two balls would turn them: they have no spin
+    c.static_coefficient = rule.friction.static_coefficient, c.kinetic_coefficient = rule.friction.kinetic_coefficient;
   c.tied = tied;
   if (c.tied) c.target = -return_rate * gap / dt;
   if (c.static_coefficient > 0 || c.tied)

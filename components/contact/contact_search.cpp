@@ -132,7 +132,7 @@ void Contact::limit_clearances() {
   };
   for (WorkingPair& pair : set_.pairs()) {
     double kept = of(pair, 0).kept;
-    if (pair.key.kind == 2) kept = std::max(kept, of(pair, 1).kept);
+    if (pair.key.kind >= 2) kept = std::max(kept, of(pair, 1).kept);
     if (pair.key.kind == 0 && pair.shells) {
       FaceShape face{pair.nodes - 1, {}};
       for (std::int32_t k = 1; k < pair.nodes; ++k) face.x[static_cast<std::size_t>(k - 1)] = of(pair, k).place;

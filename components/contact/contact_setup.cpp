@@ -67,6 +67,20 @@ std::string Contact::surface_name(std::int32_t surface) const {
   return s < blocks ? surfaces_.names()[s] : rigid_[s - blocks].options().name;
 }
 
+/// Whether these are particles of two components.
+bool Contact::are_balls(std::int32_t first, std::int32_t second) const {
+  const auto party_of = [&](std::int32_t surface) {
+    for (const std::int32_t p : surfaces_.particle_parties()) {
+      const auto count = static_cast<std::int32_t>(parties_[static_cast<std::size_t>(p)]->surface_names().size());
+      const std::int32_t begin = surfaces_.first_surface(static_cast<std::size_t>(p));
+      if (surface >= begin && surface < begin + count) return p;
+    }
+    return -1;
+  };
+  const std::int32_t a = party_of(first), b = party_of(second);
+  return a >= 0 && b >= 0 && a != b;
+}
+
 void Contact::read_pairs() {
   surface_count_ = static_cast<std::int32_t>(surfaces_.names().size() + rigid_.size());
   for (std::int32_t a = 0; a < surface_count_; ++a)
@@ -82,6 +96,11 @@ void Contact::read_pairs() {
   };
   for (const ContactPair& pair : options_.pairs) {
     const std::int32_t a = find_surface(pair.first), b = find_surface(pair.second);
+    if ((pair.tied || pair.friction) && are_balls(a, b))
+      throw Error(ExitCode::usage,
+                  fmt::format("{}: pairs: {} and {} are particles of two components, which meet as smooth balls; leave "
+                              "`{}` out, or make both bodies of one `sph` component",
+                              name(), pair.first, pair.second, pair.tied ? "tied" : "friction"));
     for (const auto& [i, k] : {std::pair(a, b), std::pair(b, a)}) {
       Rule& rule = rules_[static_cast<std::size_t>(i) * count + static_cast<std::size_t>(k)];
       rule.ignore = pair.ignore, rule.tied = pair.tied;
@@ -89,6 +108,8 @@ void Contact::read_pairs() {
     }
     if (!pair.ignore) total(std::min(a, b), std::max(a, b));
   }
+  if (surfaces_.particle_parties().size() > 1 && options_.friction.static_coefficient > 0)
+    warnings_.push_back(name() + ": particles of different components slide on each other without friction");
   constexpr std::int32_t few = 3;  // more would drown the other columns of the history
   for (std::int32_t a = 0; a < surface_count_ && surface_count_ <= few; ++a)
     for (std::int32_t b = a; b < surface_count_; ++b)

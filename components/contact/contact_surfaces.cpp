@@ -62,6 +62,9 @@ ContactSurfaces::ContactSurfaces(const Communicator& comm, std::vector<ContactPa
     node_offsets_.push_back(node_offsets_.back() + mesh.global_nodes);
     face_offsets_.push_back(face_offsets_.back() + sides * mesh.global_elements);
     surface_offsets_.push_back(surface_offsets_.back() + static_cast<std::int32_t>(party->surface_names().size()));
+    const auto of_particles = [](const ElementBlock& block) { return block.kind == ElementKind::particle; };
+    if (!mesh.blocks.empty() && std::ranges::all_of(mesh.blocks, of_particles))
+      particle_parties_.push_back(static_cast<std::int32_t>(node_offsets_.size()) - 2);
   }
   name_surfaces(party_names);
 }

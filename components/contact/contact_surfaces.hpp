@@ -75,6 +75,9 @@ class ContactSurfaces {
   /// Of all parties: "plate"; "car.plate" where several parties have a block of that name.
   const std::vector<std::string>& names() const { return names_; }
 
+  /// Parties that consist of particles, ascending: their particles may meet those of other such parties as balls.
+  const std::vector<std::int32_t>& particle_parties() const { return particle_parties_; }
+
   /// Collective. A value of every corner of faces(): from the node's owner; index corner_slot().
   template <typename T>
   void at_corners(std::span<const T> of_nodes, std::vector<T>& result) const {
@@ -124,7 +127,7 @@ class ContactSurfaces {
   Communicator comm_;
   std::vector<ContactParty*> parties_;
   std::vector<GlobalId> node_offsets_, face_offsets_;  // of each party, and the end
-  std::vector<std::int32_t> surface_offsets_;
+  std::vector<std::int32_t> surface_offsets_, particle_parties_;
   std::vector<std::int64_t> versions_;
   std::vector<std::string> names_;
   std::vector<double> effusivities_;

@@ -126,6 +126,7 @@ void WorkingSet::remember(std::span<const std::pair<PairKey, PairMemory>> restor
 void WorkingSet::gather_records(const CandidateSearch& search, const PairFilter& filter) {
   add_node_faces(search);
   add_edges(search);
+  add_balls(search);
   sort_records(records_);
   std::size_t kept = 0;
   auto memory = memories_.begin();

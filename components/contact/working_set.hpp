@@ -18,8 +18,8 @@ namespace tenon::contact {
 
 /// Names a pair, the same on every rank; the order in which sums are taken.
 struct PairKey {
-  std::int64_t kind;            ///< 0 node and face, 1 node and rigid surface, 2 edge and edge
-  std::array<GlobalId, 4> ids;  ///< node, face | node, surface | ends of the first edge, ends of the second
+  std::int64_t kind;            ///< 0 node and face, 1 node and rigid surface, 2 edge and edge, 3 ball and ball
+  std::array<GlobalId, 4> ids;  ///< node, face | node, surface | ends of both edges | balls
   auto operator<=>(const PairKey&) const = default;
 };
 
@@ -38,7 +38,8 @@ struct NodeRef {
   std::int32_t part = -1;
 };
 
-/// A pair as it travels to the ranks that need it. Nodes: the node and the face's corners, or the ends of both edges.
+/// A pair as it travels to the ranks that need it. Nodes: the node and the face's corners, the ends of both edges, or
+/// two balls.
 struct PairRecord {
   PairKey key;
   std::int32_t nodes = 0;  ///< count
@@ -124,6 +125,7 @@ class WorkingSet {
   void add_node_faces(const CandidateSearch& search);
   void add_pair(const ItemHandle& home, const FaceRecord& face);
   void add_edges(const CandidateSearch& search);
+  void add_balls(const CandidateSearch& search);
   void collect_work();
   void remember(std::span<const std::pair<PairKey, PairMemory>> restored);
   void partition();
