@@ -131,15 +131,16 @@ class FluidSums {
     }
   }
 
-  /// A particle that left its body has nobody whose motion would ever mend its density: where there are fewer
-  /// neighbours than a quarter of those all around, as in no corner of a body, it tends to that at rest, 1/s.
+  /// A particle that left its body has nobody whose motion would ever mend its density: where less of its support is
+  /// full (itself counted) than in a right-angled corner of a body, 1/2^d, it tends to that at rest, 1/s.
   double relaxation(std::size_t i, const Self& self) const {
     constexpr double ball = d == 3 ? 4.0 / 3 * std::numbers::pi : d == 2 ? std::numbers::pi : 2;
     const FluidBody& body = pass_.bodies[static_cast<std::size_t>(pass_.particles.body[i])];
     const double h = pass_.places[4 * i + 3], volume = records_[FluidRecord::size * i + 5];
     double around = ball;
     for (int n = 0; n < d; ++n) around *= K::support * h;
-    const double lonely = 1 - 4 * static_cast<double>(pass_.hits.count) * volume / around;
+    constexpr double corners = 1 << d;
+    const double lonely = 1 - corners * static_cast<double>(pass_.hits.count + 1) * volume / around;
     return lonely > 0 ? lonely * body.sound / h * (body.density - self.density) : 0;
   }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 #include <optional>
 #include <type_traits>
@@ -60,6 +61,13 @@ ParticleDecomposition::ParticleDecomposition(const Communicator& comm, std::stri
                                              const ParticleDomain& domain, const DecompositionOptions& options)
     : comm_(comm), name_(std::move(name)), data_(data), images_(domain), options_(options), rcb_(comm) {}
 
+std::int64_t most_neighbours_of(double support, double smoothing, double skin, int dimension) {
+  constexpr double pressed = 8, least = 400;
+  const double ball = dimension == 3 ? 4.0 / 3 * std::numbers::pi : dimension == 2 ? std::numbers::pi : 2;
+  const double expected = ball * std::pow(support * smoothing * (1 + skin), dimension);
+  return static_cast<std::int64_t>(std::max(least, std::ceil(pressed * expected)));
+}
+
 double ParticleDecomposition::greatest_length() const {
   double greatest = 0;
   for (std::size_t i = 0; i < data_.owned(); ++i) greatest = std::max(greatest, data_.reference_length[i]);
@@ -110,7 +118,10 @@ void ParticleDecomposition::refuse_crowds() const {
   const bool crowded = pairs > most_.pairs, too_slow = !crowded && comm_.sum(lists_.tested()) > most_.tested;
   if (!crowded && !too_slow) return;
   const auto neighbours = [&](std::size_t i) { return static_cast<double>(lists_.of(i).size()); };
-  const auto worth = [&](std::size_t i) { return too_slow ? data_.reference_length[i] : neighbours(i); };
+  const auto worth = [&](std::size_t i) {
+    const double h = data_.reference_length[i];
+    return !too_slow ? neighbours(i) : std::isnan(h) ? 0 : h;
+  };
   std::size_t first = data_.owned();
   for (std::size_t i = 0; i < data_.owned(); ++i)
     if (first == data_.owned() || worth(i) > worth(first) ||

@@ -24,6 +24,10 @@ struct DecompositionOptions {
   std::int64_t most_neighbours = 1500;  ///< of a particle, on average: beyond, runs stop
 };
 
+/// Eight times what a list of evenly spread particles holds, as where matter is pressed together to an eighth, but 400
+/// at least. `support` and `skin` as above, `smoothing` length over spacing.
+std::int64_t most_neighbours_of(double support, double smoothing, double skin, int dimension);
+
 /// Counts for the report.
 struct DecompositionCounts {
   std::int64_t renewals = 0, rebalances = 0, moved = 0;

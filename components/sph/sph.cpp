@@ -38,7 +38,9 @@ Sph::Sph(std::string name, std::shared_ptr<const Mesh> mesh, SphOptions options)
   decomposition_ = std::make_unique<ParticleDecomposition>(
       mesh_->comm, this->name(), particles_, options_.domain,
       DecompositionOptions{support_of(options_.kernel), options_.skin, options_.always_search,
-                           options_.always_rebalance, options_.most_neighbours});
+                           options_.always_rebalance,
+                           options_.most_neighbours.value_or(most_neighbours_of(
+                               support_of(options_.kernel), options_.smoothing, options_.skin, options_.dimension))});
   const bool solid =
       options_.formulation == SphFormulation::solid || options_.formulation == SphFormulation::total_lagrangian;
   if (solid || options_.heat_conduction)

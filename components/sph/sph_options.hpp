@@ -109,8 +109,8 @@ struct SphOptions {
   SphTimeStep time_step;
   double skin = 0.1;  ///< of the support: how far lists reach beyond it
   bool always_search = false;
-  bool always_rebalance = false;        ///< for tests
-  std::int64_t most_neighbours = 1500;  ///< DecompositionOptions
+  bool always_rebalance = false;                ///< for tests
+  std::optional<std::int64_t> most_neighbours;  ///< DecompositionOptions; else most_neighbours_of()
 
   /// For programs; a scene cannot give it: shifts each particle at the start (m), by its place.
   std::function<Vec3(const Vec3&)> displaced;

@@ -101,8 +101,10 @@ void TotalLagrangian::build() {
   }
   materials_->start(arrived_temperature_);
   const double support = c_.options.kernel == SphKernelKind::quintic_spline ? 3 : 2;
+  const std::int64_t most =
+      c_.options.most_neighbours.value_or(most_neighbours_of(support, c_.options.smoothing, 0, c_.options.dimension));
   rest_order_ = std::make_unique<ParticleDecomposition>(c_.comm, c_.name + " at rest", rest_, c_.options.domain,
-                                                        DecompositionOptions{support, 0, false});
+                                                        DecompositionOptions{support, 0, false, false, most});
   rest_order_->renew();
   std::vector<LocalIndex> index(rest_.owned());
   std::iota(index.begin(), index.end(), LocalIndex{0});

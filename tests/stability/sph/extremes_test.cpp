@@ -116,6 +116,16 @@ TEST(Extremes, ASupportOverEverythingStopsTheRun) {
   scene.mesh.volumes[77] = 4;
   const std::string words = last_words(scene);
   EXPECT_NE(words.find("the smoothing length of particle 78 near"), std::string::npos) << words;
+  scene.mesh.volumes[0] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(last_words(scene), words) << "what is not a number is longer than nothing";
+}
+
+/// Eight times those of an even lattice within the support, and 400 at least.
+TEST(Extremes, NeighboursThatAListMayHold) {
+  EXPECT_NEAR(static_cast<double>(most_neighbours_of(2, 1.3, 0.1, 3)), 8 * 4.18879 * 2.86 * 2.86 * 2.86, 1);
+  EXPECT_EQ(most_neighbours_of(2, 1.3, 0.1, 2), 400);
+  EXPECT_EQ(most_neighbours_of(3, 1.2, 0.1, 1), 400);
+  EXPECT_GT(most_neighbours_of(3, 2, 0.1, 3), 9000);
 }
 
 /// Water at 5 km/s on water at rest, shocks by the Hugoniot.

@@ -67,9 +67,11 @@ struct SodSolution {
 };
 
 /// Equal masses, `dense` particles a unit length at density 1. Mirrors at both ends; in three dimensions periodic
-/// across, `across` of the dense ones wide, and half as many of the others.
+/// across, `across` of the dense ones wide, and half as many of the others, each of them `shaken` in all directions by
+/// up to that share of the spacing: of a lattice that is stretched along the tube only planes are left, which lie
+/// farther apart than a smoothing length and never mix, as nothing pushes them aside.
 /// With the usual spline.
-inline SphScene sod_tube(int dense, int dimension, int across = 6) {
+inline SphScene sod_tube(int dense, int dimension, double shaken = 0, int across = 6) {
   SphScene scene = gas_scene(dimension);
   const double spacing = 1.0 / dense, width = across * spacing;
   const double thin = dimension == 1 ? 8 * spacing : 2 * spacing;
@@ -88,6 +90,11 @@ inline SphScene sod_tube(int dense, int dimension, int across = 6) {
   }
   scene.options.kernel = SphKernelKind::cubic_spline;
   scene.options.smoothing = dimension == 1 ? 1.0 : 1.2;
+  if (shaken > 0)
+    scene.options.displaced = [=](const Vec3& x) {
+      const double way = shaken * (x[0] < 0 ? spacing : thin);
+      return Vec3{way * noise(x, 1), dimension > 1 ? way * noise(x, 2) : 0, dimension > 2 ? way * noise(x, 3) : 0};
+    };
   scene.end = 0.2;
   return scene;
 }
