@@ -108,9 +108,23 @@ void CandidateSearch::choose_skins(double dt) {
   const std::int64_t count = comm_.sum(static_cast<std::int64_t>(nodes.size()));
   for (std::size_t c = 0; c < 3; ++c) common_[c] = count > 0 ? total[c] / static_cast<double>(count) : 0;
   skin_.resize(nodes.size());
+  const auto share_of = [&](std::size_t n, double way) {
+    const double size = nodes[n].size;
+    return std::min(std::max(relative_skin * size, steps_ahead * way), greatest_relative_skin * size);
+  };
+  // Whichever node leaves its skin first ends all of them: none needs more than the fastest would go until then.
+  double steps = std::numeric_limits<double>::infinity(), fastest = 0;
   for (std::size_t n = 0; n < nodes.size(); ++n) {
-    const double way = dt * norm(v[n] - common_), size = nodes[n].size;
-    const double share = std::min(std::max(relative_skin * size, steps_ahead * way), greatest_relative_skin * size);
+    const double way = dt * norm(v[n] - common_);
+    if (way > 0) steps = std::min(steps, share_of(n, way) / way);
+    fastest = std::max(fastest, way);
+  }
+  std::array<double, 2> greatest{-steps, fastest};
+  comm_.max(std::span<double>(greatest));
+  const double enough = greatest[1] > 0 ? -greatest[0] * greatest[1] : std::numeric_limits<double>::infinity();
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    const double way = dt * norm(v[n] - common_);
+    const double share = std::min(share_of(n, way), enough);
     const double expected = expected_.empty() ? 0 : expected_[n];
     skin_[n] = std::max(widening_ * share, step_margin * (way + expected));
     sought_nodes_[n].inverse_square = 1 / (skin_[n] * skin_[n]);
