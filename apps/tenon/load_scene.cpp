@@ -40,9 +40,18 @@ std::string read_scene_text(const Communicator& comm, const std::string& path) {
   return text;
 }
 
+bool is_study(const std::string& text) {
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);)
+    if (line.rfind("vary:", 0) == 0 || line.rfind("scene:", 0) == 0 || line.rfind("quantities:", 0) == 0) return true;
+  return false;
+}
+
 LoadedScene load_scene(const Communicator& comm, const std::string& path,
                        const std::vector<scene::Override>& overrides) {
   const std::string text = read_scene_text(comm, path);
+  if (is_study(text))
+    throw Error(ExitCode::usage, path + ": is a study, not a scene; run it with `tenon study " + path + "`");
   scene::Diagnostics diagnostics;
   const scene::Value value = scene::parse_scene(text, path, overrides, scene_schema(), diagnostics);
   diagnostics.throw_if_any();

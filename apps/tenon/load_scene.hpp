@@ -19,6 +19,9 @@ struct LoadedScene {
 /// Collective. The text of a scene or study, the same on every rank. Throws Error(usage) if it cannot be read.
 std::string read_scene_text(const Communicator& comm, const std::string& path);
 
+/// A study names its scene and what varies at the left margin; a scene never has these keys.
+bool is_study(const std::string& text);
+
 /// Collective. Rank 0 reads the file, all ranks parse the same text. Throws Error(file) if it cannot be read and
 /// Error(usage) with every complaint of the schema.
 LoadedScene load_scene(const Communicator& comm, const std::string& path,

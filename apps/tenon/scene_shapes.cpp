@@ -45,7 +45,7 @@ ProjectileShape projectile(const Value& v, scene::Diagnostics& diagnostics) {
   expect(s.length > nose, "length", fmt::format("more than {:.6g} m, the length of the nose", nose));
   if (s.wall == 0) return s;
   expect(s.wall < s.radius, "wall", "less than the radius");
-  expect(s.wall_elements <= s.shell, "wall_elements", "no more than `shell`");
+  expect(s.wall_elements < s.shell, "wall_elements", "less than `shell`, as the filling has the rest");
   expect(s.base_layers < s.axial, "base_layers", "less than `axial`");
   expect(s.filled_nose < s.nose, "filled_nose", "less than `nose`");
   return s;

@@ -17,14 +17,6 @@ std::string trimmed(const std::string& text) {
   return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
-/// A study names its scene and what varies at the left margin; a scene never has these keys.
-bool is_study(const std::string& text) {
-  std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);)
-    if (line.rfind("vary:", 0) == 0 || line.rfind("scene:", 0) == 0 || line.rfind("quantities:", 0) == 0) return true;
-  return false;
-}
-
 Json variation(const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0)

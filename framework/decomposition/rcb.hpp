@@ -20,8 +20,8 @@ class Rcb {
   /// The same cuts for any number of parts, to plan for more ranks than there are.
   Rcb(const Communicator& comm, int parts);
 
-  /// Collective. Part (= rank, unless parts were given) of each point. `coordinates` is n x 3, m; `weights` is empty or n, > 0. Ties on
-  /// a cut are decided by Zoltan: take the ownership from here, never from `rank_of`. Works with no points at all.
+  /// Collective. Part (= rank, unless parts were given) of each point. `coordinates` is n x 3, m; `weights` is empty or
+  /// n, > 0. Ties on a cut are decided by Zoltan: take the ownership from here, never from `rank_of`. No points: fine.
   std::vector<int> partition(std::span<const Vec3> coordinates, std::span<const double> weights);
 
   /// Collective. The same with cuts from a sample of many points, and the part of each point by those cuts (one that

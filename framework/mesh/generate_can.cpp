@@ -17,10 +17,10 @@ std::vector<Place> outline(const CanShape& shape, double inset) {
   const double r = shape.radius - inset, low = inset, high = shape.length - inset;
   std::vector<Place> line;
   for (const double x : between(shape.hole, r, graded(shape.lid, 1))) line.push_back({x, low});
+  line.pop_back();  // corners belong to two of the three parts
   for (const double z : between(low, high, graded(shape.axial, 1))) line.push_back({r, z});
+  line.pop_back();
   for (const double x : between(r, shape.hole, graded(shape.lid, 1))) line.push_back({x, high});
-  // Corners belong to two of the three parts.
-  line.erase(std::unique(line.begin(), line.end()), line.end());
   return line;
 }
 

@@ -58,7 +58,7 @@ void require_sense(const ProjectileShape& s) {
   require_positive("projectile", "wall", s.wall);
   require_positive("projectile", "radius - wall", s.radius - s.wall);
   require_count("projectile", "wall_elements", s.wall_elements, 1);
-  require_count("projectile", "shell - wall_elements", s.shell - s.wall_elements, 0);
+  require_count("projectile", "shell - wall_elements", s.shell - s.wall_elements, 1);
   require_count("projectile", "base_layers", s.base_layers, 1);
   require_count("projectile", "axial - base_layers", s.axial - s.base_layers, 1);
   require_count("projectile", "filled_nose", s.filled_nose, 0);

@@ -16,6 +16,7 @@ namespace {
 struct Parameters {
   std::vector<std::string> names;
   std::vector<double> values;
+  std::vector<char> used;  ///< by a formula
 };
 
 /// Where the parenthesis that opens at `begin` closes; npos if it does not.
@@ -29,7 +30,7 @@ std::size_t closing(const std::string& text, std::size_t begin) {
 }
 
 /// Puts values in the place of formulas; the shortest text that reads back as the same number.
-void substitute(TreeNode& node, const Parameters& known, Diagnostics& diagnostics) {
+void substitute(TreeNode& node, Parameters& known, Diagnostics& diagnostics) {
   std::string result;
   std::size_t at = 0;
   for (std::size_t begin; (begin = node.text.find("$(", at)) != std::string::npos;) {
@@ -39,7 +40,9 @@ void substitute(TreeNode& node, const Parameters& known, Diagnostics& diagnostic
     const std::string formula = node.text.substr(begin + 2, end - begin - 2);
     double value = 0;
     try {
-      value = Expression(formula, known.names)(known.values);
+      const Expression expression(formula, known.names);
+      value = expression(known.values);
+      for (std::size_t i = 0; i < known.names.size(); ++i) known.used[i] |= expression.uses(known.names[i]) ? 1 : 0;
     } catch (const std::invalid_argument& error) {
       return diagnostics.error(node.place.where(), "$(" + formula + "): " + error.what());
     }
@@ -54,7 +57,7 @@ void substitute(TreeNode& node, const Parameters& known, Diagnostics& diagnostic
   node.text = result + node.text.substr(at);
 }
 
-void substitute_below(TreeNode& node, const Parameters& known, Diagnostics& diagnostics) {
+void substitute_below(TreeNode& node, Parameters& known, Diagnostics& diagnostics) {
   if (node.kind == TreeNode::Kind::scalar) substitute(node, known, diagnostics);
   for (TreeNode& item : node.items) substitute_below(item, known, diagnostics);
   for (TreeMember& member : node.members) substitute_below(member.value, known, diagnostics);
@@ -64,6 +67,17 @@ bool is_name(const std::string& text) {
   const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
   return !text.empty() && letter(text[0]) &&
          std::all_of(text.begin(), text.end(), [&](char c) { return letter(c) || (c >= '0' && c <= '9'); });
+}
+
+/// A name that nothing uses is a mistyped one.
+void complain_of_unused(const Parameters& known, const std::vector<Place>& places, Diagnostics& diagnostics) {
+  std::vector<std::string> used;
+  for (std::size_t i = 0; i < known.names.size(); ++i)
+    if (known.used[i]) used.push_back(known.names[i]);
+  for (std::size_t i = 0; i < known.names.size(); ++i)
+    if (!known.used[i])
+      diagnostics.error(places[i].where(), "parameters." + known.names[i] + ": no formula uses it" +
+                                               (used.empty() ? "" : suggestion(known.names[i], used)));
 }
 
 }  // namespace
@@ -76,6 +90,7 @@ bool apply_parameters(TreeNode& root, Diagnostics& diagnostics) {
   if (block->value.kind != TreeNode::Kind::mapping)
     diagnostics.error(block->place.where(), "parameters: found " + block->value.described() +
                                                 ", expected a mapping of names to numbers, such as {n: 4}");
+  std::vector<Place> places;
   for (TreeMember member : block->value.members) {
     const auto complain = [&](const std::string& message) {
       diagnostics.error(member.value.place.where(), "parameters." + member.key + ": " + message);
@@ -91,9 +106,12 @@ bool apply_parameters(TreeNode& root, Diagnostics& diagnostics) {
     // Known all the same, so that formulas with it bring no complaints of their own.
     known.names.push_back(member.key);
     known.values.push_back(value.value_or(1));
+    known.used.push_back(0);
+    places.push_back(member.place);
   }
   std::erase_if(root.members, [](const TreeMember& member) { return member.key == "parameters"; });
   substitute_below(root, known, diagnostics);
+  if (diagnostics.errors().size() == before) complain_of_unused(known, places, diagnostics);
   return diagnostics.errors().size() == before;
 }
 

@@ -2,6 +2,26 @@
 #include "framework/simulation/progress.hpp"
 
 namespace tenon {
+namespace {
+
+/// More would not fit a line.
+constexpr std::size_t most_columns = 8;
+
+struct Sums {
+  double kinetic = 0, other = 0, supplied = 0;
+};
+
+Sums sums_of(const std::vector<LedgerRow>& rows) {
+  Sums sums;
+  for (const LedgerRow& row : rows) {
+    if (row.role == EnergyTerm::Role::memo) continue;
+    const bool kinetic = row.role == EnergyTerm::Role::stored && row.row == "kinetic_energy";
+    (kinetic ? sums.kinetic : row.role == EnergyTerm::Role::stored ? sums.other : sums.supplied) += row.value;
+  }
+  return sums;
+}
+
+}  // namespace
 
 void Progress::start(Simulation& simulation, bool) {
   clock_ = IntervalClock(every_, simulation.start_time());
@@ -17,14 +37,16 @@ void Progress::after_step(Simulation& simulation, bool last) {
 }
 
 void Progress::header(Simulation& simulation) {
+  std::vector<std::string> names = simulation.ledger().columns();
+  const bool summed = names.size() > most_columns;
+  if (summed) names = {"kinetic", "other", "supplied"};
   std::string rows;
-  for (const std::string& column : simulation.ledger().columns()) {
-    std::string name = column;
+  for (std::string& name : names) {
     if (const auto tail = name.rfind("_energy"); tail != std::string::npos) name.resize(tail);
     rows += fmt::format(" {:>11.11}", name);
   }
-  simulation.log().print("{:>8} {:>11} {:>10}{} {:>8} {:>7}  energies in J; what limits the step", "step", "time s",
-                         "dt s", rows, "error", "to go");
+  simulation.log().print("{:>8} {:>11} {:>10}{} {:>8} {:>7}  energies in J{}; what limits the step", "step", "time s",
+                         "dt s", rows, "error", "to go", summed ? " (rows of each component: history.csv)" : "");
 }
 
 // Those of the start stand in the log already.
@@ -39,7 +61,12 @@ void Progress::line(Simulation& simulation) {
   new_warnings(simulation);
   const LedgerSnapshot ledger = simulation.ledger().take();
   std::string rows;
-  for (const LedgerRow& row : ledger.rows) rows += fmt::format(" {:>11.4e}", row.value);
+  if (ledger.rows.size() > most_columns) {
+    const Sums sums = sums_of(ledger.rows);
+    rows = fmt::format(" {:>11.4e} {:>11.4e} {:>11.4e}", sums.kinetic, sums.other, sums.supplied);
+  } else {
+    for (const LedgerRow& row : ledger.rows) rows += fmt::format(" {:>11.4e}", row.value);
+  }
   const StepLimiter limiter = simulation.leader().limiter();
   const double left = seconds_left(simulation);
   simulation.log().print("{:>8} {:>11.5e} {:>10.4e}{} {:>8.1e} {:>6.0f}s  {}: {}", simulation.steps(),

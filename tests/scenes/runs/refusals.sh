@@ -36,6 +36,8 @@ refused 2 "plastic_heat" check "$(changed 's/from: mechanics.plastic_heat/from: 
 refused 2 "changed.yaml:" check "$(changed 's/^meshes:/meshes: [/')"
 refused 2 "nowhere.yaml" run nowhere.yaml
 refused 2 "--set" check "$small" --set end_tim=5
+refused 2 "tenon study" check "$scenes/taylor-bar-copper/study.yaml"
+refused 2 "did you mean 'resolution'" check "$scenes/penetrator/scene.yaml" --set parameters.resolutoin=2
 # Beside another component: steady must know when, a step of its own must see the heat.
 refused 2 "changed.yaml:40:" check "$(changed "s/stepper: crank_nicolson/stepper: steady\n    prescribed_temperatures: [{node_set: z_min, temperature: 300 K}]/; s/    time_step: {fixed: 0.2 us}//")"
 refused 2 "every: source_step" check "$(changed 's/stepper: crank_nicolson/stepper: tr_bdf2/; s/    time_step: {fixed: 0.2 us}//; s/, every: source_step//')"

@@ -140,6 +140,10 @@ TEST(Parameters, ComplaintsNameTheFormula) {
   EXPECT_EQ(complaints(parametrised, {{"end_time", "$(1/0) us"}}),
             (Errors{"--set end_time: $(1/0) is inf, expected a finite number"}));
   EXPECT_EQ(complaints(parametrised, {{"end_time", "$(2) bananas"}}).size(), 1u);
+  EXPECT_EQ(complaints(parametrised, {{"parameters.haf", "3"}}),
+            (Errors{"--set parameters.haf: parameters.haf: no formula uses it, did you mean 'half'?"}));
+  EXPECT_EQ(complaints(parametrised, {{"parameters.q_1", "3"}}),
+            (Errors{"--set parameters.q_1: parameters.q_1: no formula uses it; valid: n, size, half"}));
 }
 
 }  // namespace
