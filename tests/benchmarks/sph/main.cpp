@@ -3,6 +3,7 @@
 //   sph_bench fluid [--particles N] [--steps N] [--repeats N] [--speed M]    on one rank, or under mpirun
 //   mpirun -n 16 --oversubscribe sph_bench balance [--spacing M] [--end S] [--stages N]
 //   sph_bench taylor_green [--across 25 50 ...] [--shifting none|shifting|transport_velocity] [--kernel NAME] ...
+//   sph_bench spheric2 [--spacing M] [--end S] [--alpha A] [--csv FILE]     a dam onto a box (B09)
 //   sph_bench work_precision [--vortices 16 32 ...] [--tubes 160 320 ...] [--csv FILE] [--png FILE]
 #include <CLI/CLI.hpp>
 #include <string_view>
@@ -11,6 +12,7 @@
 #include "box_bench.hpp"
 #include "framework/comm/communicator.hpp"
 #include "framework/io/pictures.hpp"
+#include "spheric2_bench.hpp"
 #include "taylor_green_bench.hpp"
 #include "work_precision_bench.hpp"
 
@@ -22,6 +24,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   tenon::bench::add_balance(app);
   tenon::bench::add_fluid(app);
+  tenon::bench::add_spheric2(app);
   tenon::bench::add_taylor_green(app);
   tenon::bench::add_work_precision(app);
   CLI11_PARSE(app, argc, argv);
