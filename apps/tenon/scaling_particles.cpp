@@ -112,16 +112,16 @@ std::vector<PhaseLoad> particle_loads(Sph& sph, const MeshParts& home, const Sca
   loads[0].reductions = 1;  // the stable step
   loads[2].reductions = 1;  // whether skins are used up
   if (!in_contact) return loads;
-  // Places, velocities and former velocities go home; those that contact changed return.
+  // Places, velocities and former velocities go home in one message while anything is near a surface; velocities that
+  // contact changed return.
   Traffic home_way(home.parts), back(home.parts);
   for (std::size_t i = 0; i < count; ++i) {
     const int at = parts.part[i], lives = home.node_part[static_cast<std::size_t>(node[i])];
-    home_way.add(at, lives, 24), back.add(lives, at, 24);
+    home_way.add(at, lives, 72), back.add(lives, at, 24);
   }
   loads.push_back(load_of("home", owned, particles));
-  home_way.book(loads.back(), 3);
-  back.book(loads.back(), 1);
-  loads.back().reductions = 1;
+  home_way.book(loads.back(), trial.count(sph.name() + ": home"));
+  back.book(loads.back(), trial.count(sph.name() + ": back"));
   return loads;
 }
 

@@ -33,6 +33,8 @@ std::map<std::string, double> counted(const Simulation& simulation) {
       const DecompositionCounts& c = sph->decomposition().counts();
       counts[sph->name() + ": renewals"] = static_cast<double>(c.renewals);
       counts[sph->name() + ": refreshes"] = static_cast<double>(c.refreshes);
+      counts[sph->name() + ": home"] = static_cast<double>(sph->times_home());
+      counts[sph->name() + ": back"] = static_cast<double>(sph->times_back());
       counts[sph->name() + ": refreshed"] = static_cast<double>(c.refreshed);
     }
   for (const auto& interaction : simulation.interactions())

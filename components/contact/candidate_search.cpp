@@ -61,6 +61,11 @@ double CandidateSearch::used(double dt) const {
   constexpr std::ptrdiff_t ahead = 16;
   auto next = sought_nodes_.begin();
   for (std::size_t p = 0; p < surfaces_.parties().size(); ++p) {
+    if (const DistantParty* const distant = surfaces_.distant()[p]; distant && distant->resting()) {
+      greatest = std::max(greatest, distant->used_squared(before, step, dt));
+      while (next != sought_nodes_.end() && next->party == static_cast<std::int32_t>(p)) ++next;
+      continue;
+    }
     const std::span<const Vec3> x = surfaces_.parties()[p]->contact_positions();
     const std::span<const Vec3> v = surfaces_.parties()[p]->contact_velocities();
     for (; next != sought_nodes_.end() && next->party == static_cast<std::int32_t>(p); ++next) {

@@ -95,6 +95,7 @@ class Contact final : public Interaction {
   void add_rigid_pairs(double time, double dt, std::vector<contact::PairRecord>& extra);
   bool admit(contact::PairRecord& pair) const;
   void limit_clearances();
+  void let_rest();
   void watch_nodes();
   // A step.
   void find_impulses(double time, double dt);

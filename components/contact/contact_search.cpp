@@ -32,6 +32,8 @@ void Contact::prepare(double time, double dt) {
 }
 
 void Contact::search(double time, double dt) {
+  for (DistantParty* const distant : surfaces_.distant())
+    if (distant) distant->show();
   renew(time, dt);
   ++searches_;
   const bool something = set_.any() || comm_.any(set_.turned_away() > 0);
@@ -44,6 +46,22 @@ void Contact::search(double time, double dt) {
     search_.widen(widening_);
   }
   used_ = used_before_ = 0;
+  if (started_ && !set_.any()) let_rest();
+}
+
+/// Parties that show their nodes by messages need not while there is nothing to enforce.
+void Contact::let_rest() {
+  std::vector<double> skins;
+  auto node = surfaces_.nodes().begin();
+  for (std::size_t p = 0; p < parties_.size(); ++p) {
+    DistantParty* const distant = surfaces_.distant()[p];
+    skins.assign(distant ? static_cast<std::size_t>(parties_[p]->contact_mesh().nodes()) : 0, 0.0);
+    for (; node != surfaces_.nodes().end() && node->party == static_cast<std::int32_t>(p); ++node)
+      if (distant)
+        skins[static_cast<std::size_t>(node->node)] =
+            search_.sought(static_cast<std::size_t>(node - surfaces_.nodes().begin())).inverse_square;
+    if (distant) distant->rest(skins);
+  }
 }
 
 void Contact::renew(double time, double dt) {

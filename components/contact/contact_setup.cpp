@@ -139,6 +139,7 @@ void Contact::initialize() {
   search(components_.front()->time(), 0);
   if (!started_) settle_overlaps();
   started_ = true;
+  if (!set_.any()) let_rest();
 }
 
 bool Contact::admit(PairRecord& pair) const {

@@ -58,6 +58,7 @@ ContactSurfaces::ContactSurfaces(const Communicator& comm, std::vector<ContactPa
     : comm_(comm), parties_(std::move(parties)), node_offsets_{0}, face_offsets_{0}, surface_offsets_{0} {
   constexpr GlobalId sides = 8;  // ids of faces: 8 element + side
   for (ContactParty* party : parties_) {
+    distant_.push_back(dynamic_cast<DistantParty*>(party));
     const Mesh& mesh = party->contact_mesh();
     node_offsets_.push_back(node_offsets_.back() + mesh.global_nodes);
     face_offsets_.push_back(face_offsets_.back() + sides * mesh.global_elements);

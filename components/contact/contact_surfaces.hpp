@@ -10,6 +10,7 @@
 #include "framework/comm/exchange_plan.hpp"
 #include "framework/search/box_pairs.hpp"
 #include "framework/simulation/contact_party.hpp"
+#include "framework/simulation/distant_party.hpp"
 
 namespace tenon::contact {
 
@@ -68,6 +69,8 @@ class ContactSurfaces {
   bool stale() const;
 
   const std::vector<ContactParty*>& parties() const { return parties_; }
+  /// Of each party: what it is beside a ContactParty, or null.
+  const std::vector<DistantParty*>& distant() const { return distant_; }
   const std::vector<SurfaceNode>& nodes() const { return nodes_; }  ///< ascending by id
   const std::vector<SurfaceFace>& faces() const { return faces_; }  ///< ascending by id
   const std::vector<SurfaceEdge>& edges() const { return edges_; }  ///< ascending by ids of their ends
@@ -126,6 +129,7 @@ class ContactSurfaces {
 
   Communicator comm_;
   std::vector<ContactParty*> parties_;
+  std::vector<DistantParty*> distant_;
   std::vector<GlobalId> node_offsets_, face_offsets_;  // of each party, and the end
   std::vector<std::int32_t> surface_offsets_, particle_parties_;
   std::vector<std::int64_t> versions_;

@@ -8,7 +8,10 @@
 
 namespace tenon {
 
-ParticleContact::ParticleContact(const Parts& parts) : parts_(parts) {
+// What was sought is of no kind that mirrors and periods change: a particle that jumps from one end of space to the
+// other has left its skin.
+ParticleContact::ParticleContact(const Parts& parts)
+    : parts_(parts), sought_(parts.particles.add("contact_skin", ColumnKind::scalar, 4, true)) {
   const auto nodes = static_cast<std::size_t>(parts_.mesh.nodes());
   surface_.assign(nodes, -1);
   find_surfaces();
@@ -96,6 +99,8 @@ void ParticleContact::initialize() {
 void ParticleContact::begin(double kick) {
   kick_ = kick;
   pushed_ = false;
+  if (resting_) return;
+  ++times_home_;
   bring_all();
   for (std::size_t i = 0; i < watched_.size(); ++i) {
     const auto n = static_cast<std::size_t>(watched_[i]);
@@ -131,8 +136,10 @@ void ParticleContact::push(std::span<const LocalIndex> nodes, std::span<const Ve
   }
 }
 
+// All ranks push, or none.
 void ParticleContact::end() {
-  if (!parts_.mesh.comm.any(pushed_)) return;
+  if (!pushed_) return;
+  ++times_back_;
   const std::size_t owned = parts_.particles.owned();
   parts_.home.to_particles(parts_.decomposition.version(), {velocity_.data()->data(), 3 * velocity_.size()},
                            std::span(parts_.particles.velocity.values).first(3 * owned), 3);
@@ -164,6 +171,41 @@ ContactFields& ParticleContact::contact_fields() {
     fields_->status.resize(size), fields_->pressure.resize(size), fields_->friction_heat.resize(size);
   }
   return *fields_;
+}
+
+void ParticleContact::rest(std::span<const double> inverse_square) {
+  std::vector<double> nodes(4 * position_.size());
+  for (const LocalIndex n : parts_.mesh.owned_nodes) {
+    const auto i = static_cast<std::size_t>(n);
+    std::copy_n(position_[i].data(), 3, &nodes[4 * i]);
+    nodes[4 * i + 3] = inverse_square[i];
+  }
+  parts_.home.to_particles(parts_.decomposition.version(), nodes,
+                           std::span(sought_.values).first(4 * parts_.particles.owned()), 4);
+  resting_ = true;
+}
+
+double ParticleContact::used_squared(const Vec3& before, const Vec3& step, double dt) const {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const ParticleData& p = parts_.particles;
+  double greatest = 0;
+  for (std::size_t i = 0; i < p.owned(); ++i) {
+    const double* const sought = sought_.data() + 4 * i;
+    if (sought[3] == 0) continue;
+    const Vec3 moved = p.position.vec(i) - Vec3{sought[0], sought[1], sought[2]} - before;
+    const Vec3 then = moved + (dt * p.velocity.vec(i) - step);
+    const double share = std::max(dot(then, then), dot(moved, moved)) * sought[3];
+    if (!(share < infinity)) return infinity;
+    greatest = std::max(greatest, share);
+  }
+  return greatest;
+}
+
+void ParticleContact::show() {
+  if (!resting_) return;
+  resting_ = false;
+  ++times_home_;
+  bring_all();
 }
 
 std::int64_t ParticleContact::memory() const {

@@ -13,11 +13,13 @@
 #include "components/sph/particle_decomposition.hpp"
 #include "components/sph/sph_options.hpp"
 #include "framework/simulation/contact_party.hpp"
+#include "framework/simulation/distant_party.hpp"
 
 namespace tenon {
 
-/// Places and velocities come home after each kick; contact meets them there, and changed velocities go back.
-class ParticleContact final : public ContactParty {
+/// Places and velocities come home after each kick; contact meets them there, and changed velocities go back. Nothing
+/// travels while no particle is near anything.
+class ParticleContact final : public ContactParty, public DistantParty {
  public:
   struct Parts {
     const Mesh& mesh;
@@ -47,6 +49,10 @@ class ParticleContact final : public ContactParty {
   void shift(std::span<const LocalIndex> nodes, std::span<const Vec3> by) override;
   ExactSum contact_work() const override;
   ContactFields& contact_fields() override;
+  void rest(std::span<const double> inverse_square) override;
+  bool resting() const override { return resting_; }
+  double used_squared(const Vec3& before, const Vec3& step, double dt) const override;
+  void show() override;
 
   /// Collective. Masses, radii and places at the start of a run.
   void initialize();
@@ -62,6 +68,9 @@ class ParticleContact final : public ContactParty {
   ContactFields* fields() { return fields_.get(); }
   std::vector<double>& node_work() { return work_; }
   std::int64_t memory() const;
+  /// How often since the start places and velocities came home, and velocities went back.
+  std::int64_t times_home() const { return times_home_; }
+  std::int64_t times_back() const { return times_back_; }
 
  private:
   void find_surfaces();
@@ -77,9 +86,11 @@ class ParticleContact final : public ContactParty {
   std::vector<LocalIndex> watched_;
   std::vector<Vec3> watched_former_;
   std::unique_ptr<ContactFields> fields_;
+  Column& sought_;  // where a particle was when sought, m, and 1/m^2 of its skin
   double kick_ = 0;
   std::int64_t version_ = 0;
-  bool pushed_ = false;
+  std::int64_t times_home_ = 0, times_back_ = 0;
+  bool pushed_ = false, resting_ = false;
 };
 
 }  // namespace tenon

@@ -167,12 +167,12 @@ void Sph::kick(double dt) {
   std::copy_n(v, 3 * owned, particles_.former_velocity.data());
   Vec3 g{};
   for (std::size_t c = 0; c < 3; ++c) g[c] = options_.gravity[c](time());
-  std::vector<Vec3> told(options_.bodies.size());
-  for (std::size_t b = 0; b < told.size(); ++b)
-    for (std::size_t c = 0; c < 3; ++c) told[b][c] = options_.bodies[b].velocity[c](time() + 0.5 * dt);
+  told_.resize(options_.bodies.size());
+  for (std::size_t b = 0; b < told_.size(); ++b)
+    for (std::size_t c = 0; c < 3; ++c) told_[b][c] = options_.bodies[b].velocity[c](time() + 0.5 * dt);
   for (std::size_t i = 0; i < owned; ++i) {
     if (has_walls_ && is_wall(i))
-      particles_.velocity.set(i, told[static_cast<std::size_t>(particles_.body[i])]);
+      particles_.velocity.set(i, told_[static_cast<std::size_t>(particles_.body[i])]);
     else
       for (std::size_t c = 0; c < 3; ++c) v[3 * i + c] += kick_ * (a[3 * i + c] + g[c]);
   }

@@ -65,6 +65,9 @@ class Sph final : public Component, public DebrisTarget {
   const ParticleData& particles() const { return particles_; }
   ParticleDecomposition& decomposition() { return *decomposition_; }
   const Formulation& formulation() const { return *formulation_; }
+  /// How often since the start contact had places and velocities brought home, and sent velocities back.
+  std::int64_t times_home() const { return contact_ ? contact_->times_home() : 0; }
+  std::int64_t times_back() const { return contact_ ? contact_->times_back() : 0; }
 
  private:
   void place_particles();
@@ -105,6 +108,7 @@ class Sph final : public Component, public DebrisTarget {
   Column* debris_work_ = nullptr;    // what they brought in all, J
   bool has_gravity_ = false, has_walls_ = false;
   std::vector<std::int32_t> node_body_;  // of all nodes of the mesh
+  std::vector<Vec3> told_;               // velocities of walls in this step, m/s
   std::vector<char> waits_;              // of all nodes: 1 while the particle is not there; empty if none ever waits
   std::unique_ptr<Directory> homes_;     // of nodes, if some may wait
   mutable std::vector<Vec3> shown_places_;
