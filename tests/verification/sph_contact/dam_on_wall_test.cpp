@@ -27,7 +27,7 @@ ParticlesOnMesh scene() {
   water.high = {L, 2 * L, 0};
   water.room_low = Vec3{}, water.room_high = Vec3{4 * L, 3 * L, 0};
   ParticlesOnMesh s = with_water(water);
-  s.sph.artificial_viscosity.alpha = 0.02;
+  s.sph.artificial_viscosity.alpha = 0.03;
   s.sph.fluid.density_diffusion = 0.1;
   s.mesh = beside({{"wall", thick_brick({2 * L, 0, 0}, {2 * L + width, height, 0}, across_wall,
                                         static_cast<int>(std::lround(height / width * across_wall)))}});
