@@ -109,15 +109,44 @@ TEST(Debris, SameBitsThroughARestart) {
   EXPECT_EQ(through->ledger_error(), again->ledger_error());
 }
 
+/// What is said where elements of a block are to become particles.
+std::string refusal(const ParticlesOnMesh& s, const std::string& block) {
+  MeshData mesh = s.mesh;
+  Mechanics body("body", distribute(communicator(), std::move(mesh), {}), s.mechanics);
+  try {
+    body.give_up(block);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
 TEST(Debris, WhatCannotBecomeParticlesIsRefused) {
-  ParticlesOnMesh s = scene();
-  s.mechanics.blocks[1].material.failure.reset();
-  EXPECT_THROW(
-      ParticlesOnMeshRun(s, communicator(), "",
-                         [](Simulation& simulation, Component& body, Component& particles) {
-                           simulation.add(std::make_unique<DebrisLink>("debris", body, "middle", particles, "dust"));
-                         }),
-      Error);
+  const auto expect = [](const std::string& said, const std::string& why) {
+    EXPECT_NE(said.find(" cannot become particles: " + why), std::string::npos) << said;
+  };
+  EXPECT_EQ(refusal(scene(), "middle"), "");
+  expect(refusal(scene(), "ends"), "they never fail; give their material a `failure`, or the component `erosion`");
+  ParticlesOnMesh cycling = scene(), scaled = scene(), rigid = scene(), hot = scene(), shells = scene();
+  cycling.mechanics.time_step.subcycling = 4;
+  expect(refusal(cycling, "middle"), "the component has subcycling; leave it out");
+  scaled.mechanics.loads.mass_scaling.emplace().time_step = 1e-7;
+  RigidBody body;
+  body.blocks = {"ends"}, body.label = "ends";
+  rigid.mechanics.loads.rigid_bodies = {body};
+  for (const ParticlesOnMesh* const s : {&scaled, &rigid})
+    expect(refusal(*s, "middle"),
+           "masses of the component belong to rigid bodies, ties or mass scaling; leave these out");
+  hot.mechanics.heat = HeatMode::exported;
+  expect(refusal(hot, "middle"), "their heat is given to another component (`heat: exported`); take `adiabatic`");
+  PlateShape plate;
+  shells.mesh = beside({{"plate", generate(plate)}});
+  MaterialDescription metal = shells.mechanics.blocks[1].material;
+  metal.failure.emplace().tensile_stress = 100e6;
+  shells.mechanics = {};
+  shells.mechanics.blocks = {of_material("plate", metal)};
+  shells.mechanics.blocks[0].shell.thickness = 0.01;
+  expect(refusal(shells, "plate"), "they are shells; solid elements can");
 }
 
 }  // namespace
