@@ -24,7 +24,7 @@ struct PlanArguments {
   std::string scene;
   std::vector<std::string> settings;                  ///< key.path=value
   std::vector<int> ranks;                             ///< to predict for; empty: only what is here
-  std::vector<std::string> machines, decompositions;  ///< empty: "here"; "own"
+  std::vector<std::string> machines, decompositions;  ///< empty: "here"; "auto"
   std::string csv;                                    ///< file for the predictions; empty: none
   std::string until;                  ///< time to which steps are taken before the trial, as "1 ms"; empty: none
   std::string measure_until;          ///< time to which steps are measured; empty: as many as `trial` says

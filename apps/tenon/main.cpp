@@ -47,7 +47,7 @@ void add_plan_options(CLI::App& plan, tenon::PlanArguments& arguments) {
                   "bandwidth, slowness; a list is allowed (default: here)")
       ->delimiter(',');
   plan.add_option("--decomposition", arguments.decompositions,
-                  "Of contact and particles, to compare: own, slices, static; a list is allowed (default: own)")
+                  "Of contact and particles, to compare: auto, own, slices, static; a list is allowed (default: auto)")
       ->delimiter(',');
   plan.add_option("--csv", arguments.csv, "Write the prediction, a row per phase");
   plan.add_option("--after", arguments.after, "Run so many steps first, for a state that stands for the run")

@@ -22,13 +22,15 @@ namespace {
 struct NamedDecomposition {
   std::string name;
   SearchDecomposition kind;
+  double least_work = 0;
 };
 
 NamedDecomposition decomposition_of(const std::string& name) {
+  if (name == "auto") return {name, SearchDecomposition::rcb, sensible_least_work};
   if (name == "own") return {name, SearchDecomposition::rcb};
   if (name == "slices") return {name, SearchDecomposition::slices};
   if (name == "static") return {name, SearchDecomposition::owner_boxes};
-  throw Error(ExitCode::usage, "decomposition '" + name + "': expected own, slices or static");
+  throw Error(ExitCode::usage, "decomposition '" + name + "': expected auto, own, slices or static");
 }
 
 std::size_t place_of(const Simulation& simulation, const Component* component) {
@@ -72,7 +74,7 @@ void add_rest(std::vector<PhaseLoad>& phases, const std::vector<MeshParts>& mesh
 StepLoads loads_of(BuiltScene& built, const std::vector<MeshParts>& meshes, const Trial& trial,
                    const NamedDecomposition& decomposition) {
   const Simulation& simulation = *built.simulation;
-  const ScalingTrial scaling{trial, decomposition.kind};
+  const ScalingTrial scaling{trial, decomposition.kind, decomposition.least_work};
   StepLoads step{meshes.front().parts, decomposition.name, {}};
   const auto add = [&](std::vector<PhaseLoad> loads) {
     for (PhaseLoad& load : loads) step.phases.push_back(std::move(load));
@@ -151,7 +153,7 @@ void plan_scaling(BuiltScene& built, const PlanArguments& arguments, const Trial
   if (machines.empty()) machines.push_back(find_machine("here"));
   std::vector<NamedDecomposition> decompositions;
   for (const std::string& name : arguments.decompositions) decompositions.push_back(decomposition_of(name));
-  if (decompositions.empty()) decompositions.push_back(decomposition_of("own"));
+  if (decompositions.empty()) decompositions.push_back(decomposition_of("auto"));
   std::vector<StepLoads> steps;
   for (const int ranks : arguments.ranks) {
     std::vector<MeshParts> meshes;

@@ -2,6 +2,8 @@
 // Contact: boxes go to the parts of the search, pairs to those of the enforcement, places and velocities of nodes with
 // pairs there in every step, impulses back.
 #include <algorithm>
+#include <array>
+#include <map>
 #include <numeric>
 
 #include "apps/tenon/scaling_parts.hpp"
@@ -34,11 +36,11 @@ class ContactParts {
   std::vector<PhaseLoad> loads() {
     std::vector<PhaseLoad> loads{check(), search()};
     share_out_nodes();
-    send_pairs();
     loads.push_back(share_out());
     loads.push_back(touch());
     loads.push_back(solve());
     loads.push_back(exchange());
+    loads.push_back(together());
     return loads;
   }
 
@@ -154,10 +156,7 @@ class ContactParts {
   /// Nodes with pairs by their uses and work, as the working set does it.
   void share_out_nodes() {
     const auto nodes = static_cast<std::size_t>(set_.nodes());
-    std::vector<double> weights(nodes);
-    for (const WorkingPair& pair : set_.pairs())
-      for (std::int32_t k = 0; k < pair.nodes; ++k)
-        weights[static_cast<std::size_t>(pair.node[static_cast<std::size_t>(k)])] += 1;
+    const std::vector<double> work = set_.work_of_nodes();
     std::vector<Vec3> places(nodes);
     part_.assign(nodes, 0), node_home_.assign(nodes, 0);
     for (std::size_t n = 0; n < nodes; ++n) {
@@ -166,10 +165,24 @@ class ContactParts {
       places[n] = contact_.surfaces()
                       .parties()[static_cast<std::size_t>(node.party)]
                       ->contact_positions()[static_cast<std::size_t>(node.node)];
-      weights[n] = set_.weight(weights[n], static_cast<double>(set_.work()[n]));
       node_home_[n] = home_[home];
     }
     if (nodes == 0) return;
+    // Each search learns from the one before what ranks do beside the work of their own nodes.
+    constexpr int searches = 4;
+    std::vector<double> weights = work;
+    for (int k = 0; k < searches; ++k) {
+      cut_nodes(places, weights);
+      send_pairs();
+      if (scaling_.decomposition == SearchDecomposition::owner_boxes) return;
+      const std::vector<double> beside = work_beside(work);
+      for (std::size_t n = 0; n < nodes && k + 1 < searches; ++n)
+        weights[n] = work[n] * beside[static_cast<std::size_t>(part_[n])];
+    }
+  }
+
+  void cut_nodes(const std::vector<Vec3>& places, const std::vector<double>& weights) {
+    const std::size_t nodes = places.size();
     if (scaling_.decomposition == SearchDecomposition::owner_boxes) {
       part_ = node_home_;
     } else if (scaling_.decomposition == SearchDecomposition::slices) {
@@ -181,20 +194,48 @@ class ContactParts {
         if (!found.empty()) part_[n] = found.front();
       }
     } else {
-      part_ = Rcb(Communicator::self(), parts_).partition(places, weights);
+      const double work = std::accumulate(weights.begin(), weights.end(), 0.0);
+      const int parts = WorkingSet::parts_for(work / set_.counted_steps(), parts_, scaling_.least_work);
+      part_ = Rcb(Communicator::self(), parts).partition(places, weights);
+      for (int& part : part_) part = WorkingSet::rank_of(part, parts, parts_);
     }
   }
 
-  /// All pairs of a first node go to each rank that sums for a node of one of them.
+  std::int64_t copies_of(int part) const {
+    const std::int64_t nodes = set_.nodes();
+    return std::ranges::lower_bound(copies_, (part + 1) * nodes) - std::ranges::lower_bound(copies_, part * nodes);
+  }
+
+  /// Counted work of a part: looks, visits and what nodes take, wherever it is done.
+  std::vector<double> work_of_parts() const {
+    std::vector<double> all = nothing();
+    for (std::size_t q = 0; q < pair_parts_.size(); ++q)
+      for (const int r : pair_parts_[q]) of(all, r) += set_.work_of(q);
+    const double of_node = WorkingSet::work_of_node * set_.counted_steps();
+    for (int r = 0; r < parts_; ++r) of(all, r) += of_node * static_cast<double>(copies_of(r));
+    return all;
+  }
+
+  /// Of each part: what it does over the work of its own nodes.
+  std::vector<double> work_beside(const std::vector<double>& work) const {
+    std::vector<double> own = nothing(), beside = work_of_parts();
+    for (std::size_t n = 0; n < work.size(); ++n) of(own, part_[n]) += work[n];
+    for (std::size_t r = 0; r < ranks_; ++r) beside[r] = own[r] > 0 ? beside[r] / own[r] : 1;
+    return beside;
+  }
+
+  /// All faces of a node go to each rank that sums for a node of one of them; other pairs for themselves.
   void send_pairs() {
     const std::vector<WorkingPair>& pairs = set_.pairs();
     pair_parts_.assign(pairs.size(), {});
     std::vector<int> ranks;
     for (std::size_t begin = 0, end = 0; begin < pairs.size(); begin = end) {
       ranks.clear();
-      for (end = begin; end < pairs.size() && pairs[end].key.kind == pairs[begin].key.kind &&
-                        pairs[end].key.ids[0] == pairs[begin].key.ids[0];
-           ++end)
+      const auto together = [&](const PairKey& key) {
+        return key == pairs[begin].key ||
+               (key.kind == 0 && pairs[begin].key.kind == 0 && key.ids[0] == pairs[begin].key.ids[0]);
+      };
+      for (end = begin; end < pairs.size() && together(pairs[end].key); ++end)
         for (std::int32_t k = 0; k < pairs[end].nodes; ++k)
           ranks.push_back(part_[static_cast<std::size_t>(pairs[end].node[static_cast<std::size_t>(k)])]);
       std::ranges::sort(ranks);
@@ -233,40 +274,62 @@ class ContactParts {
 
   /// A pair is looked at wherever one of its nodes is.
   PhaseLoad touch() const {
-    const std::vector<WorkingPair>& pairs = set_.pairs();
-    const auto node = [&](std::size_t q, std::int32_t k) {
-      return static_cast<std::size_t>(pairs[q].node[static_cast<std::size_t>(k)]);
-    };
-    std::vector<double> uses(static_cast<std::size_t>(set_.nodes())), work = nothing();
-    for (std::size_t q = 0; q < pairs.size(); ++q)
-      for (std::int32_t k = 0; k < pairs[q].nodes; ++k) uses[node(q, k)] += 1;
+    std::vector<double> work = nothing();
     double whole = 0;
-    for (std::size_t q = 0; q < pairs.size(); ++q) {
-      double looks = 1;
-      for (std::int32_t k = 0; k < pairs[q].nodes; ++k)
-        looks += static_cast<double>(set_.work()[node(q, k)]) / uses[node(q, k)];
+    for (std::size_t q = 0; q < pair_parts_.size(); ++q) {
+      const double looks = set_.work_of(q) - static_cast<double>(set_.visits()[q]);
       for (const int r : pair_parts_[q]) of(work, r) += looks;
       whole += looks;
     }
     return load_of("touch", work, whole);
   }
 
-  /// Constraints come and go from step to step: what the nodes have been visited since the last partition stands for
-  /// them, on all ranks that have the node.
+  /// Constraints come and go from step to step: what they have been visited since the last partition stands for them,
+  /// on all ranks that have the pair. Between two ranks a message goes in as many of the iterations as the constraint
+  /// that lasts longest is there; a constraint that a rank has to itself needs none.
   PhaseLoad solve() const {
     std::vector<double> work = nothing();
-    for (const std::int64_t copy : copies_)
-      of(work, static_cast<int>(copy / set_.nodes())) +=
-          static_cast<double>(set_.work()[static_cast<std::size_t>(copy % set_.nodes())]);
-    const double whole = std::accumulate(set_.work().begin(), set_.work().end(), 0.0);
+    const std::vector<WorkingPair>& pairs = set_.pairs();
+    const double most = set_.visits().empty() ? 0 : static_cast<double>(std::ranges::max(set_.visits()));
+    double whole = 0;
+    std::map<std::array<std::int64_t, 3>, double> sent;  // from, to, node: share of the iterations
+    for (std::size_t q = 0; q < pairs.size(); ++q) {
+      const auto visits = static_cast<double>(set_.visits()[q]);
+      if (visits == 0) continue;
+      for (const int r : pair_parts_[q]) of(work, r) += visits;
+      whole += visits;
+      for (std::int32_t k = 0; k < pairs[q].nodes; ++k) {
+        const LocalIndex n = pairs[q].node[static_cast<std::size_t>(k)];
+        const int from = part_[static_cast<std::size_t>(n)];
+        for (const int to : pair_parts_[q])
+          if (to != from) sent[{from, to, n}] = std::max(sent[{from, to, n}], visits / most);
+      }
+    }
     PhaseLoad load = load_of("solve", work, whole);
-    Traffic halo(parts_);
+    if (iterations_ == 0) return load;
+    Traffic iterated(parts_), settled(parts_);
+    std::map<std::array<int, 2>, std::array<double, 2>> between;  // greatest share, and sum of the shares
+    for (const auto& [key, share] : sent) {
+      std::array<double, 2>& of_pair = between[{static_cast<int>(key[0]), static_cast<int>(key[1])}];
+      of_pair = {std::max(of_pair[0], share), of_pair[1] + share};
+    }
+    for (const auto& [ranks, shares] : between) iterated.add(ranks[0], ranks[1], shares[1] * sizeof(Vec3), shares[0]);
     const std::int64_t nodes = set_.nodes();
     for (const std::int64_t copy : copies_)
-      halo.add(part_[static_cast<std::size_t>(copy % nodes)], static_cast<int>(copy / nodes), sizeof(Vec3));
-    if (iterations_ == 0) return load;
-    halo.book(load, iterations_ + 2);
+      settled.add(part_[static_cast<std::size_t>(copy % nodes)], static_cast<int>(copy / nodes), sizeof(Vec3));
+    iterated.book(load, iterations_ + 2);
+    settled.book(load, 1);
     load.reductions = 8 + iterations_ / 4;
+    return load;
+  }
+
+  /// Push-back as one, by its counted work, for its balance; its time is in the others.
+  PhaseLoad together() const {
+    const std::vector<double> work = work_of_parts();
+    const std::vector<double> nodes = set_.work_of_nodes();
+    PhaseLoad load;
+    load.phase = contact_.name() + ": push-back", load.group = "contact";
+    load.work = work, load.whole = std::accumulate(nodes.begin(), nodes.end(), 0.0);
     return load;
   }
 

@@ -11,10 +11,10 @@ void Traffic::book(PhaseLoad& load, double times, double weight) const {
     double sent = 0, received = 0;
   };
   std::vector<Both> messages(parts), bytes(parts);
-  for (const auto& [key, amount] : bytes_) {
+  for (const auto& [key, message] : messages_) {
     const auto from = static_cast<std::size_t>(key / parts_), to = static_cast<std::size_t>(key % parts_);
-    messages[from].sent += 1, messages[to].received += 1;
-    bytes[from].sent += amount, bytes[to].received += amount;
+    messages[from].sent += message.share, messages[to].received += message.share;
+    bytes[from].sent += message.bytes, bytes[to].received += message.bytes;
   }
   load.messages.resize(parts), load.bytes.resize(parts);
   for (std::size_t p = 0; p < parts; ++p) {

@@ -2,6 +2,7 @@
 // What the phases of a step do on each of many ranks, counted in one process.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <unordered_map>
@@ -24,9 +25,11 @@ struct PhaseLoad {
 class Traffic {
  public:
   explicit Traffic(int parts) : parts_(parts) {}
-  /// Of an item; what stays where it is costs nothing.
-  void add(int from, int to, double bytes) {
-    if (from != to) bytes_[static_cast<std::int64_t>(from) * parts_ + to] += bytes;
+  /// Of an item; what stays where it is costs nothing. Some messages go in a share of the exchanges only.
+  void add(int from, int to, double bytes, double share = 1) {
+    if (from == to) return;
+    Message& message = messages_[static_cast<std::int64_t>(from) * parts_ + to];
+    message.bytes += bytes, message.share = std::max(message.share, share);
   }
   /// Adds the messages and bytes of an exchange that happens so many times a step to those of a phase, with `weight`
   /// times the bytes.
@@ -34,7 +37,10 @@ class Traffic {
 
  private:
   int parts_;
-  std::unordered_map<std::int64_t, double> bytes_;
+  struct Message {
+    double bytes = 0, share = 0;
+  };
+  std::unordered_map<std::int64_t, Message> messages_;
 };
 
 }  // namespace tenon

@@ -29,6 +29,7 @@ MeshParts divide_mesh(const Mesh& mesh, const BuiltScene::Division& division, in
 struct ScalingTrial {
   const Trial& trial;
   SearchDecomposition decomposition;  ///< of search and enforcement, and of particles
+  double least_work = 0;              ///< see ContactOptions
 };
 
 std::vector<PhaseLoad> mesh_loads(const Component& component, const BuiltScene::Division& division,

@@ -41,6 +41,9 @@ std::map<std::string, double> counted(const Simulation& simulation) {
     if (auto* const contact = dynamic_cast<Contact*>(interaction.get())) {
       counts[contact->name() + ": searches"] = static_cast<double>(contact->searches());
       counts[contact->name() + ": iterations"] = static_cast<double>(contact->iterations());
+      counts[contact->name() + ": visits"] = static_cast<double>(contact->enforcement_work());
+      counts[contact->name() + ": looks"] = static_cast<double>(contact->looks());
+      counts[contact->name() + ": pairs that press"] = static_cast<double>(contact->pressing());
     }
   return counts;
 }

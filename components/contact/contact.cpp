@@ -22,6 +22,7 @@ void Contact::act(double time, double dt) {
     find_impulses(time, dt);
     if (any_constraint_) {
       book(dt, parties_.front()->contact_kick());
+      pressing_ += active_;
       send_back();
     }
     way_ += 2 * dt * std::max(fastest_, any_constraint_ ? fastest(enforcement_.velocities(), time, dt) : 0.0);

@@ -69,6 +69,8 @@ class Contact final : public Interaction {
   const contact::WorkingSet& working_set() const { return set_; }
   /// Of enforcement, since the start.
   std::int64_t iterations() const { return iterations_total_; }
+  std::int64_t looks() const { return looks_; }        // at pairs
+  std::int64_t pressing() const { return pressing_; }  // pairs, summed over steps
 
  private:
   using Constraint = contact::Constraint;
@@ -107,7 +109,6 @@ class Contact final : public Interaction {
   bool find_more(double time, double dt);
   bool is_moved(std::size_t begin, std::size_t end) const;
   void make_groups();
-  void count_looks(std::size_t begin, std::size_t end);
   void touch_pairs(double time, double dt);
   double fastest(std::span<const Vec3> velocity, double time, double dt) const;
   double near_of(const contact::WorkingPair& pair) const;
@@ -220,6 +221,7 @@ class Contact final : public Interaction {
 
   std::int64_t steps_ = 0, searches_ = 0, idle_steps_ = 0, iterations_total_ = 0;
   std::int64_t search_work_ = 0, enforcement_work_ = 0;
+  std::int64_t looks_ = 0, pressing_ = 0;
   std::vector<std::string> warnings_;
   std::vector<std::pair<PairKey, PairMemory>> restored_;
 

@@ -23,8 +23,6 @@ constexpr double return_rate = 0.1;
 constexpr double touching = 0.02;
 // Of the distance of interest: what is less is left to the next step when a stopped node is looked at again.
 constexpr double negligible = 1e-3;
-// What a look at a pair costs, in visits of a constraint in the iteration.
-constexpr float work_of_look = 3;
 
 Vec3 tangential(const Vec3& a, const Vec3& normal) {
   return a - dot(a, normal) * normal;
@@ -102,7 +100,8 @@ void Contact::touch_pairs(double time, double dt) {
     };
     group_wake_[g] = wakes();
     if (group_wake_[g] > 0) continue;
-    count_looks(begin, end);
+    for (std::size_t q = begin; q < end; ++q)
+      if (!(wake_[q] > 0)) set_.count_look(q), ++looks_;
     const std::int64_t kind = set_.pairs()[begin].key.kind;
     if (kind == 0)
       touch_faces(begin, end, dt);
@@ -115,17 +114,6 @@ void Contact::touch_pairs(double time, double dt) {
     else
       touch_balls(begin, dt);
     group_wake_[g] = wakes();
-  }
-}
-
-/// Pairs are looked at wherever one of their nodes is, so each of these has a share.
-void Contact::count_looks(std::size_t begin, std::size_t end) {
-  for (std::size_t q = begin; q < end; ++q) {
-    if (wake_[q] > 0) continue;
-    const WorkingPair& pair = set_.pairs()[q];
-    const float each = work_of_look / static_cast<float>(pair.nodes);
-    for (std::int32_t k = 0; k < pair.nodes; ++k)
-      set_.work()[static_cast<std::size_t>(pair.node[static_cast<std::size_t>(k)])] += each;
   }
 }
 

@@ -45,7 +45,7 @@ Contact::Contact(std::string name, const Communicator& comm, std::vector<Compone
       options_(std::move(options)),
       surfaces_(comm, parties_, names_of(components_)),
       search_(comm, surfaces_, options_.decomposition),
-      set_(comm, surfaces_, options_.decomposition),
+      set_(comm, surfaces_, options_.decomposition, options_.least_work),
       enforcement_(comm, set_) {
   for (const RigidSurface& surface : options_.rigid_surfaces) rigid_.emplace_back(surface);
   read_pairs();

@@ -148,6 +148,26 @@ void Enforcement::connect(std::span<const Constraint> constraints) {
   used_.clear();
   for (std::size_t n = 0; n < nodes; ++n)
     if (first_[n] < first_[n + 1]) used_.push_back(n);
+  if (comm_.size() > 1) agree(constraints);
+}
+
+// Whoever has a constraint has all that led to it, so all of them know it: the rank that sums for one of its nodes,
+// what the others iterate with, and these, what comes. Nodes that only may touch wait until the iteration is over.
+void Enforcement::agree(std::span<const Constraint> constraints) {
+  send_.clear(), receive_.clear();
+  for (const Constraint& q : constraints)
+    for (std::int32_t i = 0; i < q.nodes; ++i) {
+      const LocalIndex n = q.node[static_cast<std::size_t>(i)];
+      if (!set_.sums(n))
+        receive_.push_back({set_.part(n), n});
+      else
+        for (const std::int32_t rank : set_.others_with(static_cast<std::size_t>(q.pair))) send_.push_back({rank, n});
+    }
+  for (std::vector<AgreedExchange::Item>* items : {&send_, &receive_}) {  // indices ascend as the ids of nodes do
+    std::ranges::sort(*items);
+    items->erase(std::unique(items->begin(), items->end()), items->end());
+  }
+  iteration_.agree(send_, receive_);
 }
 
 double Enforcement::weight(const NodeState& node, std::span<const Body> bodies) const {
@@ -172,7 +192,7 @@ void Enforcement::precondition(std::span<Constraint> constraints, std::span<cons
       const auto q = static_cast<std::size_t>(use.constraint);
       crowd_[n] += amount(q) * coefficient(constraints[q], static_cast<std::size_t>(use.slot));
     }
-  set_.halo().forward<double>(crowd_, crowd_);
+  iteration_.forward<double>(crowd_);
   std::vector<double> body_crowd(bodies.size());
   if (has_bodies_) {  // all that touch a body share it
     std::vector<ExactSum> sums(bodies.size());
@@ -206,7 +226,7 @@ void Enforcement::precondition(std::span<Constraint> constraints, std::span<cons
   }
 }
 
-/// Velocities by given impulses of all constraints.
+/// Velocities by given impulses of all constraints, of the nodes that are in one here.
 template <typename Impulse>
 void Enforcement::move(std::span<const Constraint> constraints, std::span<const NodeState> nodes,
                        std::vector<Body>& bodies, Impulse impulse) {
@@ -248,7 +268,7 @@ void Enforcement::move(std::span<const Constraint> constraints, std::span<const 
                      cross(times(body.state.inverse_inertia, body.impulse.angular), nodes[n].place - body.state.pivot);
     }
   }
-  set_.halo().forward<Vec3>(velocity_, velocity_);
+  iteration_.forward<Vec3>(velocity_);
 }
 
 Enforcement::Change Enforcement::iterate(std::span<Constraint> constraints, std::span<const Body> bodies, double beta) {
@@ -315,8 +335,8 @@ Enforcement::Report Enforcement::solve(std::span<Constraint> constraints, std::s
     if (greatest[0] <= tolerance * greatest[1]) break;
   }
   move(constraints, nodes, bodies, [](const Constraint& q) { return q.impulse; });
-  for (const std::size_t n : used_)
-    set_.work()[n] += static_cast<float>(report.iterations * (first_[n + 1] - first_[n]));
+  set_.halo().forward<Vec3>(velocity_, velocity_);
+  for (const Constraint& q : constraints) set_.count_visits(static_cast<std::size_t>(q.pair), report.iterations);
   return report;
 }
 
@@ -350,6 +370,7 @@ void Enforcement::release(std::span<Constraint> constraints, std::span<const Nod
   for (std::size_t q = 0; q < constraints.size(); ++q)
     if (guess_[q] != 0) constraints[q].impulse = constraints[q].impulse + guess_[q] * constraints[q].normal;
   move(constraints, nodes, bodies, [](const Constraint& q) { return q.impulse; });
+  set_.halo().forward<Vec3>(velocity_, velocity_);
 }
 
 }  // namespace tenon::contact

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "components/contact/working_set.hpp"
+#include "framework/comm/agreed_exchange.hpp"
 #include "framework/simulation/contact_party.hpp"
 
 namespace tenon::contact {
@@ -69,7 +70,9 @@ void balance_moments(Constraint& constraint, std::span<const NodeState> nodes, s
 /// any number of ranks.
 class Enforcement {
  public:
-  Enforcement(const Communicator& comm, WorkingSet& set) : comm_(comm), set_(set) {}
+  /// Collective.
+  Enforcement(const Communicator& comm, WorkingSet& set)
+      : comm_(comm), set_(set), iteration_(comm, "contact iteration") {}
 
   struct Report {
     int iterations = 0;
@@ -104,6 +107,7 @@ class Enforcement {
 
  private:
   void connect(std::span<const Constraint> constraints);
+  void agree(std::span<const Constraint> constraints);
   void precondition(std::span<Constraint> constraints, std::span<const NodeState> nodes, std::span<const Body> bodies,
                     std::span<const double> guess);
   template <typename Impulse>
@@ -118,6 +122,8 @@ class Enforcement {
 
   Communicator comm_;
   WorkingSet& set_;
+  AgreedExchange iteration_;  // of nodes in constraints
+  std::vector<AgreedExchange::Item> send_, receive_;
   std::vector<std::size_t> used_;    // nodes that this rank sums for and that are in some constraint
   std::vector<std::int32_t> first_;  // of each node of the set: its uses begin here
   struct Use {

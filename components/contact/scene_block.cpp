@@ -121,10 +121,11 @@ Schema contact_schema() {
   s.list("pairs", pair_schema(), "Rules for single pairs of surfaces. Their forces become columns of history.csv.");
   s.named("rigid_surfaces", rigid_surface_schema(), "Planes, spheres and cylinders by name.");
   s.choice(
-      "decomposition", {"own", "static", "slices"},
-      "For comparison only, the answer is the same. `own`: recursive bisection of what touches; `static`: every rank "
+      "decomposition", {"auto", "own", "static", "slices"},
+      "For comparison only, the answer is the same. `own`: recursive bisection of what touches, for all ranks; `auto`: "
+      "likewise, but for fewer ranks where each would have too little to pay for its messages; `static`: every rank "
       "keeps its own surfaces; `slices`: one-dimensional cuts.",
-      "own");
+      "auto");
   s.flag("always_search", "Search and share out in each step, needed or not; the answer is the same.", "false");
   return s;
 }
@@ -151,6 +152,7 @@ ContactOptions read_contact(const Value& block, Diagnostics& diagnostics) {
   options.decomposition = decomposition == "static"   ? SearchDecomposition::owner_boxes
                           : decomposition == "slices" ? SearchDecomposition::slices
                                                       : SearchDecomposition::rcb;
+  if (decomposition == "auto") options.least_work = sensible_least_work;
   options.always_search = block.flag("always_search");
   return options;
 }

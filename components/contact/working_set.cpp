@@ -21,6 +21,9 @@ struct EdgeRecord {
 // Of the least height of a node's faces: what is farther off is of no interest, not even as a gap.
 constexpr double near_share = 0.1;
 
+// Most are of a node and a face with four.
+constexpr double nodes_of_pair = 5;
+
 // Of the element behind a face: a node that is deeper came from elsewhere.
 constexpr double reliable_depth = 0.5;
 
@@ -54,6 +57,16 @@ bool shares_node(const PairRecord& pair, std::size_t first) {
   return false;
 }
 
+/// Pairs that travel together end here: those of a node with all its faces, or one of any other kind.
+template <typename Pair>
+std::size_t end_of_group(const std::vector<Pair>& pairs, std::size_t begin) {
+  std::size_t end = begin + 1;
+  while (pairs[begin].key.kind == 0 && end < pairs.size() && pairs[end].key.kind == 0 &&
+         pairs[end].key.ids[0] == pairs[begin].key.ids[0])
+    ++end;
+  return end;
+}
+
 /// Ascending by key; the records are long, so keys are sorted in their place.
 void sort_records(std::vector<PairRecord>& records) {
   if (std::ranges::is_sorted(records, {}, &PairRecord::key)) return;
@@ -80,8 +93,21 @@ struct WorkingSet::FaceRecord {
   std::array<Vec3, 4> places;  // of the corners when sought, m
 };
 
-WorkingSet::WorkingSet(const Communicator& comm, const ContactSurfaces& surfaces, SearchDecomposition decomposition)
-    : comm_(comm), surfaces_(surfaces), decomposition_(decomposition), rcb_(comm) {}
+WorkingSet::WorkingSet(const Communicator& comm, const ContactSurfaces& surfaces, SearchDecomposition decomposition,
+                       double least_work)
+    : comm_(comm),
+      surfaces_(surfaces),
+      decomposition_(decomposition),
+      least_work_(least_work),
+      parts_made_(comm.size()),
+      rcb_(comm) {}
+
+int WorkingSet::parts_for(double work, int ranks, double least_work) {
+  if (!(least_work > 0)) return ranks;
+  int parts = ranks;
+  while (parts > 1 && work < least_work * parts) parts = (parts + 1) / 2;
+  return parts;
+}
 
 void WorkingSet::build(const CandidateSearch& search, std::span<const PairRecord> extra, const PairFilter& filter,
                        std::span<const std::pair<PairKey, PairMemory>> restored) {
@@ -94,11 +120,27 @@ void WorkingSet::build(const CandidateSearch& search, std::span<const PairRecord
   connect();
 }
 
+std::vector<double> WorkingSet::work_of_nodes() const {
+  std::vector<double> work(ids_.size(), work_of_node * counted_steps());
+  for (std::size_t q = 0; q < pairs_.size(); ++q) {
+    const double each = work_of(q) / pairs_[q].nodes;
+    for (std::int32_t k = 0; k < pairs_[q].nodes; ++k)
+      work[static_cast<std::size_t>(pairs_[q].node[static_cast<std::size_t>(k)])] += each;
+  }
+  return work;
+}
+
 /// What the nodes cost since the last partition, at their homes.
 void WorkingSet::collect_work() {
-  std::vector<float> of_busy(busy_.size());
-  if (!results_.empty()) results_.reverse<float>(work_, of_busy);
-  home_work_.assign(surfaces_.nodes().size(), 0.0f);
+  const std::vector<double> work = work_of_nodes();
+  double own = 0, all = work_of_node * counted_steps() * static_cast<double>(nodes());
+  for (std::size_t q = 0; q < pairs_.size(); ++q) all += work_of(q);
+  for (std::size_t n = 0; n < work.size(); ++n) own += parts_[n] == comm_.rank() ? work[n] : 0.0;
+  const auto beside = static_cast<float>(own > 0 ? all / own : 1.0);
+  std::vector<NodeWork> here(work.size()), of_busy(busy_.size());
+  for (std::size_t n = 0; n < work.size(); ++n) here[n] = {static_cast<float>(work[n]), beside};
+  if (!results_.empty()) results_.reverse<NodeWork>(here, of_busy);
+  home_work_.assign(surfaces_.nodes().size(), {});
   for (std::size_t b = 0; b < busy_.size(); ++b)
     if (static_cast<std::size_t>(busy_[b]) < home_work_.size())
       home_work_[static_cast<std::size_t>(busy_[b])] = of_busy[b];
@@ -327,13 +369,22 @@ void WorkingSet::partition() {
     busy_.push_back(static_cast<LocalIndex>(n));
     places.push_back(surfaces_.parties()[static_cast<std::size_t>(nodes[n].party)]
                          ->contact_positions()[static_cast<std::size_t>(nodes[n].node)]);
-    weights.push_back(weight(uses[n], static_cast<double>(home_work_[n])));
+    const NodeWork& before = home_work_[n];
+    const double fresh = counted_steps() * (work_of_node + work_of_pair * uses[n] / nodes_of_pair);
+    weights.push_back(before.work > 0 ? static_cast<double>(before.work) * static_cast<double>(before.beside) : fresh);
   }
+  const double steps = counted_steps();
   steps_ = 0;
   home_part_.assign(nodes.size(), comm_.rank());
   if (comm_.size() > 1 && decomposition_ != SearchDecomposition::owner_boxes) {
-    const std::vector<int> parts = rcb_.partition(places, weights);
-    for (std::size_t b = 0; b < busy_.size(); ++b) home_part_[static_cast<std::size_t>(busy_[b])] = parts[b];
+    ExactSum work;
+    for (const double weight : weights) work.add(weight);
+    const int parts = parts_for(comm_.sum(work) / steps, comm_.size(), least_work_);
+    if (parts != parts_made_) rcb_ = Rcb(comm_, parts);
+    parts_made_ = parts;
+    const std::vector<int> part = rcb_.partition(places, weights);
+    for (std::size_t b = 0; b < busy_.size(); ++b)
+      home_part_[static_cast<std::size_t>(busy_[b])] = rank_of(part[b], parts, comm_.size());
   }
   if (comm_.size() == 1) {
     for (PairRecord& pair : records_)
@@ -349,8 +400,8 @@ void WorkingSet::partition() {
     for (std::int32_t k = 0; k < pair.nodes; ++k) pair.node[static_cast<std::size_t>(k)].part = parts[next++];
 }
 
-// All pairs that begin with the same node go to every rank that sums for a node of one of them: the choice among the
-// faces of a node needs them all.
+// All faces of a node go to every rank that sums for a node of one of these pairs: the choice among them needs them
+// all. Other pairs stand for themselves.
 void WorkingSet::send_records() {
   if (comm_.size() == 1) {
     arrived_.swap(records_);
@@ -362,9 +413,7 @@ void WorkingSet::send_records() {
   std::vector<int> ranks;
   for (std::size_t begin = 0, end = 0; begin < records_.size(); begin = end) {
     ranks.clear();
-    while (end < records_.size() && records_[end].key.kind == records_[begin].key.kind &&
-           records_[end].key.ids[0] == records_[begin].key.ids[0])
-      ++end;
+    end = end_of_group(records_, begin);
     for (std::size_t i = begin; i < end; ++i)
       for (std::int32_t k = 0; k < records_[i].nodes; ++k)
         ranks.push_back(records_[i].node[static_cast<std::size_t>(k)].part);
@@ -388,7 +437,6 @@ void WorkingSet::connect() {
              refs.end());
   ids_.clear(), homes_.clear(), parts_.clear();
   for (const NodeRef& ref : refs) ids_.push_back(ref.id), homes_.push_back(ref.home), parts_.push_back(ref.part);
-  work_.assign(ids_.size(), 0.0f);
 
   const auto local = [&](GlobalId id) {
     return static_cast<LocalIndex>(std::ranges::lower_bound(ids_, id) - ids_.begin());
@@ -415,6 +463,8 @@ void WorkingSet::connect() {
     pairs_.push_back(pair);
   }
 
+  looks_.assign(pairs_.size(), 0.0f), visits_.assign(pairs_.size(), 0.0f);
+
   const std::size_t count = ids_.size();
   std::vector<int> home_rank(count), result_rank(count, -1), halo_rank(count, -1);
   std::vector<LocalIndex> home_index(count), every(count);
@@ -433,8 +483,30 @@ void WorkingSet::connect() {
   from_home_ = ExchangePlan::from_owners(comm_, home_rank, slot, every, "contact state");
   results_ = ExchangePlan::from_owners(comm_, result_rank, slot, every, "contact impulses");
   if (comm_.size() == 1) return;  // halo_ is empty
+  list_others();
   const std::vector<LocalIndex> places = places_at_owners(comm_, parts_, ids_, ids_, "contact plans");
   halo_ = ExchangePlan::from_owners(comm_, halo_rank, places, every, "contact iteration");
+}
+
+// What any rank has of a group, all of these have.
+void WorkingSet::list_others() {
+  group_of_pair_.assign(pairs_.size(), 0);
+  group_ranks_.clear(), first_rank_.assign(1, 0);
+  for (std::size_t begin = 0, end = 0; begin < pairs_.size(); begin = end) {
+    end = end_of_group(pairs_, begin);
+    const auto first = static_cast<std::ptrdiff_t>(group_ranks_.size());
+    for (std::size_t q = begin; q < end; ++q) {
+      group_of_pair_[q] = static_cast<std::int32_t>(first_rank_.size() - 1);
+      for (std::int32_t k = 0; k < pairs_[q].nodes; ++k) {
+        const std::int32_t rank = part(pairs_[q].node[static_cast<std::size_t>(k)]);
+        if (rank != comm_.rank() &&
+            std::find(group_ranks_.begin() + first, group_ranks_.end(), rank) == group_ranks_.end())
+          group_ranks_.push_back(rank);
+      }
+    }
+    std::sort(group_ranks_.begin() + first, group_ranks_.end());
+    first_rank_.push_back(group_ranks_.size());
+  }
 }
 
 std::int64_t WorkingSet::memory() const {

@@ -74,7 +74,8 @@ using PairFilter = std::function<bool(PairRecord&)>;
 /// are. Every rank has all the candidates of a node of which it needs one.
 class WorkingSet {
  public:
-  WorkingSet(const Communicator& comm, const ContactSurfaces& surfaces, SearchDecomposition decomposition);
+  WorkingSet(const Communicator& comm, const ContactSurfaces& surfaces, SearchDecomposition decomposition,
+             double least_work);
 
   /// Collective. Takes what a search found, and what the pairs before remember. `work` of the nodes before sets the
   /// weights of the partition. Extra pairs (with rigid surfaces) come from the ranks that own the nodes.
@@ -95,6 +96,14 @@ class WorkingSet {
   const ExchangePlan& results() const { return results_; }
   /// From the rank that sums for a node to the others that have it.
   const ExchangePlan& halo() const { return halo_; }
+  /// The other ranks that have a pair, ascending.
+  std::span<const std::int32_t> others_with(std::size_t pair) const {
+    const auto g = static_cast<std::size_t>(group_of_pair_[pair]);
+    return std::span(group_ranks_).subspan(first_rank_[g], first_rank_[g + 1] - first_rank_[g]);
+  }
+  /// The rank that sums for a node.
+  std::int32_t part(LocalIndex node) const { return parts_[static_cast<std::size_t>(node)]; }
+  int rank() const { return comm_.rank(); }
   /// Where a node of the set is kept.
   const ItemHandle& home(LocalIndex node) const { return homes_[static_cast<std::size_t>(node)]; }
   /// Whether any rank has a pair.
@@ -103,17 +112,30 @@ class WorkingSet {
   std::int64_t turned_away() const { return turned_away_; }
   /// J: of pairs that were remembered and are no more, on this rank, since the last `build`.
   std::span<const double> lost() const { return lost_; }
-  /// Local. A step is taken with this set.
+  /// Local. A step is taken with this set; a pair is looked at; its constraint is visited by iterations.
   void count_step() { ++steps_; }
-  /// What a node in so many pairs costs, in visits of a constraint in the iteration: what it takes in each of the steps
-  /// since the last partition, and the work that was counted for it.
-  double weight(double uses, double work) const {
-    constexpr double of_node = 1, of_use = 0.05;
-    return static_cast<double>(std::max<std::int64_t>(1, steps_)) * (of_node + of_use * uses) + work;
+  void count_look(std::size_t pair) { looks_[pair] += 1; }
+  void count_visits(std::size_t pair, int iterations) { visits_[pair] += static_cast<float>(iterations); }
+  /// Of each pair since the last partition.
+  std::span<const float> looks() const { return looks_; }
+  std::span<const float> visits() const { return visits_; }
+  double counted_steps() const { return static_cast<double>(std::max<std::int64_t>(1, steps_)); }
+  /// Work is counted in visits of a constraint by the iteration: what pairs and nodes take in a step, and a look at a
+  /// pair, as measured on one core (docs/performance.md).
+  static constexpr double work_of_node = 2.5, work_of_pair = 0.03, work_of_look = 2.5;
+  /// Of so many ranks, how many parts are made of a step's work; see ContactOptions::least_work.
+  static int parts_for(double work, int ranks, double least_work);
+  /// The rank of a part.
+  static int rank_of(int part, int parts, int ranks) {
+    return static_cast<int>(static_cast<std::int64_t>(part) * ranks / parts);
   }
-  /// Counted work of enforcement per node of the set, for the next partition.
-  std::vector<float>& work() { return work_; }
-  std::span<const float> work() const { return work_; }
+  /// Of a pair since the last partition, wherever it is.
+  double work_of(std::size_t pair) const {
+    return work_of_pair * counted_steps() + work_of_look * static_cast<double>(looks_[pair]) +
+           static_cast<double>(visits_[pair]);
+  }
+  /// Of each node since the last partition: its own, and its share in that of its pairs.
+  std::vector<double> work_of_nodes() const;
   std::int64_t memory() const;
 
  private:
@@ -131,10 +153,13 @@ class WorkingSet {
   void partition();
   void send_records();
   void connect();
+  void list_others();
 
   Communicator comm_;
   const ContactSurfaces& surfaces_;
   SearchDecomposition decomposition_;
+  double least_work_;
+  int parts_made_;
   Rcb rcb_;
   bool any_ = false;
   std::int64_t turned_away_ = 0;
@@ -145,13 +170,20 @@ class WorkingSet {
   std::vector<LocalIndex> busy_;
   std::vector<LocalIndex> busy_slot_;    // of all home nodes: place in busy_, or no_index
   std::vector<std::int32_t> home_part_;  // of home nodes
-  std::vector<float> home_work_;
+  /// Of a node since the last partition, and what its rank did for each unit of work of its own nodes: pairs across a
+  /// cut are looked at on both sides.
+  struct NodeWork {
+    float work = 0, beside = 0;
+  };
+  std::vector<NodeWork> home_work_;
   std::vector<WorkingPair> pairs_;
   std::vector<PairRecord> arrived_;
   std::vector<GlobalId> ids_;
   std::vector<ItemHandle> homes_;
   std::vector<std::int32_t> parts_;
-  std::vector<float> work_;
+  std::vector<float> looks_, visits_;
+  std::vector<std::int32_t> group_of_pair_, group_ranks_;  // pairs that go to the same ranks, and which these are
+  std::vector<std::size_t> first_rank_;
   ExchangePlan from_home_, results_, halo_;
 };
 

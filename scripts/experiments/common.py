@@ -91,7 +91,7 @@ def read_trial(text):
     return trial
 
 
-def plan(scene, name, values, ranks=(), machines=("here",), decompositions=("own",), until=None, during=None, trial=20, on=1):
+def plan(scene, name, values, ranks=(), machines=("here",), decompositions=("auto",), until=None, during=None, trial=20, on=1):
     """`tenon plan` of a scene, measured for some steps after `until`, or from the start to the time `during`: what was measured, and the rows of the prediction."""
     table = out / f"{name}.csv"
     command = [tenon, "plan", scenes / scene / "scene.yaml", *settings(values)]
@@ -112,13 +112,13 @@ def plan(scene, name, values, ranks=(), machines=("here",), decompositions=("own
     return read_trial(text), rows, text
 
 
-def seconds(rows, machine, ranks, decomposition="own", groups=None, phases=None):
+def seconds(rows, machine, ranks, decomposition="auto", groups=None, phases=None):
     """Predicted seconds of a step, of some groups or of phases that end with one of these words."""
     return sum(r["seconds"] for r in rows if r["machine"] == machine and r["ranks"] == ranks and r["decomposition"] == decomposition
                and (groups is None or r["group"] in groups) and (phases is None or r["phase"].endswith(phases)))
 
 
-def one(rows, phase, ranks, decomposition="own", machine=None):
+def one(rows, phase, ranks, decomposition="auto", machine=None):
     """The row of a phase."""
     for r in rows:
         if r["phase"].endswith(phase) and r["ranks"] == ranks and r["decomposition"] == decomposition and machine in (None, r["machine"]):

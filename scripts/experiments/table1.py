@@ -23,7 +23,7 @@ def values_of(full):
 
 @functools.cache
 def predictions(full):
-    return plan("penetrator", "table1", values_of(full), (1, 2, *ranks), machines, ("own", "static", "slices"), until=until, trial=trial)
+    return plan("penetrator", "table1", values_of(full), (1, 2, *ranks), machines, ("auto", "own", "static", "slices"), until=until, trial=trial)
 
 
 def sizes(text):
@@ -36,7 +36,7 @@ def where_the_time_goes(rows, machine):
     body = []
     for p in (ranks[0], ranks[-1]):
         for r in rows:
-            if r["machine"] != machine or r["ranks"] != p or r["decomposition"] != "own" or r["seconds"] < 1e-3 * seconds(rows, machine, p):
+            if r["machine"] != machine or r["ranks"] != p or r["decomposition"] != "auto" or r["seconds"] < 1e-3 * seconds(rows, machine, p):
                 continue
             body.append((p, r["phase"], f"{balance(r):.2f}", f"{copies(r, p):.2f}", f"{r['messages']:.1f}", f"{r['reductions']:.1f}", f"{r['bytes'] / 1e3:.1f}",
                          f"{1e3 * r['computing_s']:.2f}", f"{1e3 * r['seconds']:.2f}"))
