@@ -153,18 +153,24 @@ void Contact::gather(double time, double dt) {
 }
 
 // How fast an overlap may go: as far as what the pair has stored pays for it, for that is what it took to get in; and a
-// ten-thousandth of a face per step, which is not felt, where it came by a change of faces.
+// ten-thousandth of an element per step, which is not felt, where it came by a change of faces. Elements may be much
+// thinner than their faces are wide. Where that limit holds, the pair is a little soft: a node that two faces squeeze
+// from both sides has no velocity that suits both, and their impulses would grow from step to step.
 void Contact::limit_removal(Constraint& q, double dt) const {
   if (q.gap >= 0) return;
   const WorkingPair& pair = set_.pairs()[static_cast<std::size_t>(q.pair)];
-  constexpr double slow = 1e-3;  // of the distance of interest, a tenth of a face
+  constexpr double slow = 1e-4, faces_a_margin = 10, softness = 1e-3;
   double lightest = 0;
   for (std::size_t k = 0; k < static_cast<std::size_t>(q.nodes); ++k)
     if (q.c[k] > 0) {
       const std::array<double, 6>& w = state_[static_cast<std::size_t>(q.node[k])].mobility.w;
       lightest = std::max({lightest, w[0], w[1], w[2]});
     }
-  q.target = std::min(q.target, std::max(slow * pair.margin / dt, std::sqrt(2 * pair.memory.energy * lightest)));
+  double size = faces_a_margin * pair.margin;
+  if (pair.depth > 0) size = std::min(size, 2 * pair.depth);  // a pair takes half the element's
+  const double limit = std::max(slow * size / dt, std::sqrt(2 * pair.memory.energy * lightest));
+  if (q.target <= limit) return;
+  q.target = limit, q.softness = softness;
 }
 
 // False if contact throws a node beyond its skin, unless this is the last trial.

@@ -299,6 +299,7 @@ Enforcement::Change Enforcement::iterate(std::span<Constraint> constraints, std:
       residual = residual + (t - dot(t, q.normal) * q.normal);
     }
     const Vec3 before = q.impulse;
+    if (q.softness > 0) residual = residual + (q.softness / q.inverse * dot(q.extrapolated, q.normal)) * q.normal;
     q.impulse = project(q, q.extrapolated - q.inverse * residual, q.sticks);
     found.change = std::max(found.change, norm(q.impulse - q.extrapolated) / q.inverse);
     found.size = std::max(found.size, norm(q.impulse) / q.inverse);

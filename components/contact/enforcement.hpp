@@ -40,7 +40,8 @@ struct Constraint {
   double target = 0;      ///< m/s
   Vec3 tangent_target{};  ///< m/s
   double static_coefficient = 0, kinetic_coefficient = 0;
-  bool tied = false;  ///< holds both ways, and along the surface
+  double softness = 0;  ///< gives way by this times its impulse over `inverse`
+  bool tied = false;    ///< holds both ways, and along the surface
   bool couple = false;
   std::array<double, 9> turn{};  ///< rows
   std::array<Vec3, 5> arm{};     ///< m
