@@ -196,6 +196,7 @@ Expression::Expression(const std::string& text, std::vector<std::string> variabl
   parsed->values.assign(parsed->names.size(), 0.0);
   mu::Parser& parser = parsed->parser;
   try {
+    parser.EnableOptimizer(false);  // it reorders: floor((n + 1)/3) of n = 5 would be 1
     parser.ClearFun();
     parser.ClearConst();
     for (const auto& [name, f] : unary) parser.DefineFun(name, f);

@@ -46,6 +46,16 @@ TEST(Expression, ValuesAreThoseOfTheMathematicalLibrary) {
   EXPECT_EQ(at("floor(1.5) + ceil(1.2) + round(2.6) + abs(-3)"), 1.0 + 2 + 3 + 3);
 }
 
+TEST(Expression, IsEvaluatedAsWritten) {
+  for (int n = 0; n < 300; ++n)
+    for (const int m : {3, 7, 10, 49}) {
+      const auto divisor = std::to_string(m);
+      EXPECT_EQ(at("floor((t + 1)/" + divisor + ")", n), (n + 1) / m) << n;
+      EXPECT_EQ(at("floor((t + 2)/" + divisor + " + 2*t)", n), std::floor((n + 2) / static_cast<double>(m) + 2 * n))
+          << n;
+    }
+}
+
 TEST(Expression, KnowsWhatItDependsOn) {
   EXPECT_TRUE(parse_field_expression("2 * pi").is_constant());
   const SpaceTimeFunction in_time = parse_field_expression("3 * t");
