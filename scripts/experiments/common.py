@@ -67,6 +67,11 @@ def run(arguments, ranks=1, log=None):
     return done.stdout
 
 
+def told(values):
+    """Settings as a reader would type them; nothing if there are none."""
+    return "".join(f" `--set {key}={value}`" for key, value in values.items())
+
+
 def settings(values):
     return [word for key, value in values.items() for word in ("--set", f"{key}={value}")]
 

@@ -4,7 +4,7 @@ import re
 
 import figure3
 import table1
-from common import balance, copies, one, plan, seconds, simulate, table
+from common import balance, copies, one, plan, seconds, simulate, table, told
 
 names = ("static", "slices", "own", "auto")
 
@@ -62,7 +62,7 @@ def measure(full):
     bird = plan("bird-strike", "decompositions-bird-strike", {}, ranks, ("cluster",), names, until="0.15 ms", trial=40)[1]
     text += "\n`bird-strike` at 0.15 ms:\n\n" + counted(bird, ranks) + judge(bird, ranks)
     penetrator = table1.predictions(full)[1]
-    text += f"\n`penetrator`{' ' + str(table1.values_of(full)) if full else ''} at {table1.until}:\n\n" + counted(penetrator, (64, 256, 1024))
+    text += f"\n`penetrator`{told(table1.values_of(full))} at {table1.until}:\n\n" + counted(penetrator, (64, 256, 1024))
     text += judge(penetrator, (64, 256, 1024))
     text += "\n`can-crush` to 0.03 ms on 8 ranks, as run (contact.decomposition); the answer is the same:\n\n"
     return text + run_so("can-crush", {"end_time": "0.03 ms"}, 8)

@@ -3,7 +3,7 @@
 import functools
 import re
 
-from common import balance, copies, draw, plan, seconds, table, verdict
+from common import balance, copies, draw, plan, seconds, table, told, verdict
 
 paper = {64: (0.409, 4.55, 1.24, 6.27), 128: (0.191, 2.36, 0.715, 3.30), 256: (0.102, 1.30, 0.533, 1.97), 512: (0.0525, 0.708, 0.334, 1.11),
          1024: (0.0303, 0.423, 0.238, 0.704)}
@@ -52,7 +52,7 @@ def measure(full):
     two, _, _ = plan("penetrator", "table1-two", smaller, until=until, trial=trial, on=2)
     elements, particles = sizes(text_of_plan)
     text = "## Table 1: a penetrator in a target of particles\n\n"
-    text += f"`apps/scenes/penetrator`{' ' + str(values) if values else ''}: {elements} elements ({100 * (elements / paper_elements - 1):+.1f} % of the paper's {paper_elements}), "
+    text += f"`apps/scenes/penetrator`{told(values)}: {elements} elements ({100 * (elements / paper_elements - 1):+.1f} % of the paper's {paper_elements}), "
     text += f"{particles} particles ({100 * (particles / paper_particles - 1):+.1f} % of {paper_particles}). Predicted from {measured.steps} steps at {until} of its run, measured on one core, "
     text += f"with {measured.counts.get('contact: searches', 0) * measured.steps:.0f} searches of contact and {measured.counts.get('contact: iterations', 0):.1f} iterations of it a step among them.\n\n"
     best = {m: seconds(rows, m, ranks[0]) / seconds(rows, m, ranks[-1]) for m in machines}
@@ -75,7 +75,7 @@ def measure(full):
         text += f"Predicted, machine {m}: seconds per step (speed-up over 64 ranks).\n\n"
         text += table(["ranks", *(name for name, _ in groups), "all", "paper: elements / particles / contact / all"], body) + "\n"
     text += where_the_time_goes(rows, "tflops")
-    text += f"Measured per step on one and two ranks at {smaller}, ms (the mean of the ranks; waiting is in it):\n\n"
+    text += f"Measured per step on one and two ranks with{told(smaller)}, ms (the mean of the ranks; waiting is in it):\n\n"
     kinds = (("elements", ("penetrator: ", "ring: ", "support: ")), ("particles", ("target: ",)), ("contact", ("contact: ",)))
     body = []
     for name, starts in kinds:
