@@ -12,6 +12,7 @@ namespace tenon {
 // other has left its skin.
 ParticleContact::ParticleContact(const Parts& parts)
     : parts_(parts), sought_(parts.particles.add("contact_skin", ColumnKind::scalar, 4, true)) {
+  sought_.saved = false;  // the way since the last search; a restart searches anew
   const auto nodes = static_cast<std::size_t>(parts_.mesh.nodes());
   surface_.assign(nodes, -1);
   find_surfaces();
@@ -59,7 +60,11 @@ double ParticleContact::effusivity(std::int32_t surface) const {
 void ParticleContact::watch(std::span<const LocalIndex> nodes) {
   watched_.assign(nodes.begin(), nodes.end());
   watched_former_.resize(nodes.size());
-  for (std::size_t i = 0; i < nodes.size(); ++i) watched_former_[i] = former_[static_cast<std::size_t>(nodes[i])];
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const auto n = static_cast<std::size_t>(nodes[i]);
+    watched_former_[i] = former_[n];
+    impulse_[n] = {};  // of an earlier step, if it was not watched meanwhile
+  }
 }
 
 void ParticleContact::bring(const Column& column, std::vector<Vec3>& nodes) {

@@ -43,6 +43,7 @@ struct Column {
   ColumnKind kind = ColumnKind::scalar;
   int components = 1;  ///< of a position or a vector: further ones are scalars that stand behind it
   bool kept = true;    ///< goes where its particle goes, and into checkpoints; what is not kept is found again
+  bool saved = true;   ///< unless this says that a checkpoint is no place for it
   ColumnValues values;
 
   double* data() { return values.data(); }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// State in a checkpoint: every kept column, by particle. The order of a restart is that of `reference`, so sums go on
-// with the same bits.
+// State in a checkpoint: every kept column that is to be saved, by particle. The order of a restart is that of
+// `reference`, so sums go on with the same bits.
 #include <algorithm>
 
 #include "components/sph/sph.hpp"
@@ -30,7 +30,7 @@ void Sph::save(CheckpointWriter& file) {
   const GlobalOrder order(mesh_->comm, all, mesh_->global_nodes);
   std::vector<double> values;
   for (const Column& column : particles_.columns()) {
-    if (!column.kept) continue;
+    if (!column.kept || !column.saved) continue;
     const auto n = static_cast<std::size_t>(column.components);
     values.assign(column.values.begin(), column.values.begin() + static_cast<std::ptrdiff_t>(n * owned));
     values.resize(n * all.size());
@@ -68,7 +68,7 @@ void Sph::load(const CheckpointReader& file) {
   const std::size_t owned = particles_.owned();
   const GlobalOrder order(mesh_->comm, std::span(particles_.ids).first(owned), mesh_->global_nodes);
   for (Column& column : particles_.columns())
-    if (column.kept)
+    if (column.kept && column.saved)
       file.array(key(column.name), order,
                  std::span(column.values).first(owned * static_cast<std::size_t>(column.components)),
                  column.components);

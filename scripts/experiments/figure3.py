@@ -73,7 +73,7 @@ def measure(full):
     whole, alone = spread([m[4] / m[0] for m in measured]), spread([m[1] / m[0] for m in measured])
     balances = {ranks: balance(one(rows, "contact: push-back", ranks)) for ranks, rows in weak}
     text = "## Figure 3: an inclined wall crushes a can\n\n"
-    text += (f"`apps/scenes/can-crush`, doubled {len(measured) - 1} times, on one core: means over all steps of the first {during}, as the paper took them. Search is contact's check, "
+    text += (f"`apps/scenes/can-crush`, doubled {len(measured) - 1} times, on one core: means over all steps of the first {during}, as the paper took them (of five runs up to 7,500 elements, of three up to 30,000, the one least disturbed; beyond that one run). Search is contact's check, "
              f"search and sharing out; push-back its touches, iterations and exchange.\n\n")
     text += (f"Bar: the time of an element-step is flat within 15 %; found: {whole:.0f} % between the least and the greatest: {verdict(whole <= 15)}; of elements alone {alone:.0f} %: "
              f"{verdict(alone <= 15)}. Contact costs by surface, and the wall of the can has {3} elements through it at first, and {3 * 2**(largest(full) // 3)} at last.\n")

@@ -61,7 +61,7 @@ def measure(full):
     text += "" if full else " (at this smaller size, where it says little)"
     text += f". On machine cluster, where work costs a hundredth and a message a thirteenth, {best['cluster']:.2f}.\n"
     halves = one.processor / two.processor
-    text += f"Bar: 1.8 from one rank to two, measured: {halves:.2f}: {verdict(halves >= 1.8)}.\n\n"
+    text += f"Bar: 1.8 from one rank to two, measured (processor time of the busier rank, waiting included): {halves:.2f}: {verdict(halves >= 1.8)}.\n\n"
     lines = []
     for m in machines[:2]:
         body, first = [], None
