@@ -8,9 +8,9 @@
 namespace tenon::bench {
 
 /// A can (diameter 1 m) that an inclined wall crushes from above: section 4.1 of [APHDB97]. So that a few hundred
-/// steps show it fold, its upper half comes as bellows of straight flanks and round crests, a gap of one and a half wall
-/// thicknesses between the flanks; only the crushing is left to do. Lengths follow from the number of elements: the
-/// sides of the wall's elements are as long as the wall is thick.
+/// steps show it fold, its upper half comes as bellows of straight flanks and round crests, a gap of one and a half
+/// wall thicknesses between the flanks; only the crushing is left to do. Lengths follow from the number of elements:
+/// the sides of the wall's elements are as long as the wall is thick.
 struct CrushedCan {
   std::int64_t elements = 100'000;  ///< about
   int layers = 2;                   ///< hexahedra through the wall; 0: shells
